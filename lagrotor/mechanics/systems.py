@@ -1161,6 +1161,8 @@ class System(Equations):
     ) -> "SystemRun":
         """Integrate the equations of motion. Where forces contain sign(w), or the dissipation |w|, bodies can stick and slip.
 
+        The dissipation F √Q, with a quadratic form Q of velocities, is dry friction in several directions.
+
         A run that cannot reach its last time ends earlier with a LagrotorWarning, and `run.ending` gives the reason. Another
         warning names the time at which the constraints become dependent.
 
