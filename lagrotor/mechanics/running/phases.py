@@ -700,8 +700,8 @@ def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
     if above > size and below < -size:
         raise StopError(at.t, f"on {short(argument)} = 0 the motion may continue to either side")
     if h.surfaces[i].bound is None and not h.surfaces[i].slips:
-        way = "it must be affine in velocities, and the jump in forces alone"
-        raise StopError(at.t, f"the motion stays on {short(argument)} = 0, where it is not followed: {way}")
+        way = "it must be affine in velocities, and only forces may jump there"
+        raise StopError(at.t, f"the motion stays on {short(argument)} = 0, which is not followed: {way}")
     return 0
 
 

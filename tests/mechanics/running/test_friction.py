@@ -101,6 +101,13 @@ def test_a_load_that_grows_is_held_up_to_the_cone_and_then_slides() -> None:
     assert 1e-5 < close < far / 4
 
 
+def test_friction_in_a_plane_may_be_given_as_forces() -> None:
+    push = tuple(-v / sp.sqrt(A**2 + B**2) for v in (A, B))
+    run = System(PLANE, SLIDING, forces=push).simulate({}, (0, 0), (3, 4), (0, 5, 6))
+    np.testing.assert_allclose(run.q[1:], [(7.5, 10)] * 2, atol=1e-8)
+    assert (run.v[2] == 0).all()
+
+
 def test_the_cone_of_a_form_with_mixed_terms() -> None:
     """Q = a² + a b + b²: a load (t, 0) is held while its size by the inverse form, 2 t/√3, is at most the bound."""
     system = System(PLANE, SLIDING, dissipation=F * sp.sqrt(A**2 + A * B + B**2), forces=(t, 0))
@@ -206,7 +213,7 @@ def test_a_force_that_jumps_keeps_a_velocity_at_zero_by_a_value_between(case: st
 
 def test_a_force_that_holds_a_place_or_a_state_ends_the_run_in_words_and_at_once() -> None:
     charge = sp.Symbol("x", real=True)
-    with pytest.warns(LagrotorWarning, match="stays on x = 0, where it is not followed: it must be affine"):
+    with pytest.warns(LagrotorWarning, match="stays on x = 0, which is not followed: it must be affine"):
         run = System(states={charge: sp.Rational(1, 2) - sp.sign(charge)}).simulate({}, t=(0, 5), x0=(1,))
     assert run.t[-1] == pytest.approx(2, abs=1e-6) and run.evaluations < 5_000
 
