@@ -51,7 +51,7 @@ class Theorem:
         Parameters
         ----------
         proved : Any
-            A proved orbit, crossing, enclosure or equilibrium.
+            A proved orbit, crossing or enclosure.
         encloses : str, default ''
             A sentence on the numbers that the theorem encloses.
         quantity : str, default ''
