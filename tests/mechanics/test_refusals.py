@@ -285,7 +285,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "evaluate: expression = Matrix.* is no": lambda: run().evaluate(sp.Matrix([q])),
         "at: times must lie between 0 and 1 s": lambda: run().at(2),
         "crossings: section = m does not change": lambda: run().crossings(m),
-        "of = theta must be 2 expressions": lambda: run().poincare(q, q),
         "plot: the run has no times": lambda: run().crossings(q - 7).plot(),
         "load: system = None must be the System": lambda: SystemRun.load("run.npz", None),
         "the energy has no real value": lambda: run(System(A, v**2 / 2 - sp.log(q)), {}, (-1,)),
