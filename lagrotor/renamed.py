@@ -19,6 +19,7 @@ RENAMED = {
     "lagrotor.proved.crossings": "lagrotor.proofs.orbits.crossings",
     "lagrotor.proved.enclosure": "lagrotor.proofs.orbits.enclosure",
     "lagrotor.proved.paired_orbits": "lagrotor.proofs.orbits.paired_orbits",
+    "lagrotor.proved.steady": "lagrotor.proofs.orbits.equilibria",
     "lagrotor.proved.stepping": "lagrotor.proofs.taylor_step",
     "lagrotor.proved.tails": "lagrotor.proofs.truncated_series",
 }

@@ -51,7 +51,7 @@ class Theorem:
         Parameters
         ----------
         proved : Any
-            A proved orbit, crossing or enclosure.
+            A proved orbit, crossing, enclosure or equilibrium.
         encloses : str, default ''
             A sentence on the numbers that the theorem encloses.
         quantity : str, default ''

@@ -2,7 +2,7 @@
 
 **Theorems** are about every motion that starts in a given set: its state at a time (`enclose`), a zero crossing of an
 expression (`crossing`, `no_crossing`), its mean (`means`), a periodic orbit and its stability (`periodic_orbit`;
-`precession` for the pair). Numbers are balls (midpoint, radius) of Arb, rounded outward. A
+`precession` for the pair), an equilibrium (`equilibrium`). Numbers are balls (midpoint, radius) of Arb, rounded outward. A
 decimal denotes the rational number that it prints. `NotProved` means that the proof failed; the statement may still be
 true.
 
@@ -13,8 +13,8 @@ true.
 3. `truncated_series`, `taylor_step`: one step is a Taylor model. A Picard inclusion proves its remainder bound.
 4. `lohner_frames`: Lohner frames join the steps and limit the wrapping effect.
 5. `orbits/enclosure`, `orbits/crossings`: states, signs and means along the steps.
-6. `matrices`, `orbits/closed_orbits`: Newton's method approximates an orbit, and the Krawczyk test proves that it exists and
-   is unique in a box. Enclosed Floquet multipliers give the stability.
+6. `matrices`, `orbits/closed_orbits`, `orbits/equilibria`: Newton's method approximates an orbit or an equilibrium, and the
+   Krawczyk test proves that it exists and is unique in a box. Enclosed Floquet multipliers or eigenvalues give the stability.
    `orbits/paired_orbits` does so for the pair, over a quarter of a period.
 
 **Checker.** Each result has a `certificate`: plain data with subject, tape, initial set, steps and claim. `check` verifies
@@ -50,6 +50,8 @@ if TYPE_CHECKING:
     from lagrotor.proofs.orbits.crossings import no_crossing as no_crossing
     from lagrotor.proofs.orbits.enclosure import Enclosure as Enclosure
     from lagrotor.proofs.orbits.enclosure import enclose as enclose
+    from lagrotor.proofs.orbits.equilibria import ProvedEquilibrium as ProvedEquilibrium
+    from lagrotor.proofs.orbits.equilibria import equilibrium as equilibrium
     from lagrotor.proofs.orbits.paired_orbits import Precession as Precession
     from lagrotor.proofs.orbits.paired_orbits import precession as precession
 

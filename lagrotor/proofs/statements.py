@@ -269,6 +269,16 @@ def _precession(certificate: Certificate) -> str:
     return f"{who[0].upper()}{who[1:]} {orbit}.{_ones_phrase(4, claim['kind'])}"
 
 
+def _equilibrium(certificate: Certificate) -> str:
+    claim = certificate["claim"]
+    premise = {
+        "stable": f" Its energy {certificate['energy']} is definite there and conserved.",
+        "stable to first order": " It is conservative.",
+    }.get(claim["stability"], "")
+    at = _at_states(certificate, claim["q"], "=", 25)
+    return f"There is an equilibrium at {at}; it is {claim['stability']}.{premise}{_subject_phrase(certificate)}"
+
+
 def quantities(certificate: Certificate) -> dict[str, Ball]:
     """Return the claimed numbers by name: states, means of expressions, `time`, `period`, `frequency` (rad/s)."""
     claim = certificate["claim"]
@@ -280,7 +290,8 @@ def quantities(certificate: Certificate) -> dict[str, Ball]:
             return {row["of"]: _read_ball(row["mean"]) for row in claim["means"]}
         if certificate["kind"] == "crossing":
             return {"time": _read_ball(claim["time"])}
-        return dict(zip(certificate["motion"]["arguments"], map(_read_ball, claim.get("states", ())), strict=False))
+        states = claim.get("states", claim.get("q", ()))
+        return dict(zip(certificate["motion"]["arguments"], map(_read_ball, states), strict=False))
 
 
 _SUBJECTS: dict[str, Callable[[Certificate, Any], str]] = {
@@ -295,4 +306,5 @@ _WORDS: dict[str, Callable[[Certificate], str]] = {
     "no crossing": _no_crossing,
     "means": _means,
     "periodic orbit": _periodic_orbit,
+    "equilibrium": _equilibrium,
 }

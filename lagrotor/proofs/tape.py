@@ -173,6 +173,10 @@ def tape_of(program: Program) -> Tape:
     return _needed(tuple(recorder.arguments), recorder.operations, places)
 
 
+def select_outputs(first: Tape, others: Sequence[int]) -> Tape:
+    return _needed(first.arguments, first.operations, [first.outputs[i] for i in others])
+
+
 def with_pace(tape: Tape, states: int) -> Tape:
     """Return the tape of the motion in s = t / pace: each output is multiplied by the pace, a new argument after the states."""
     operations: list[Operation] = []

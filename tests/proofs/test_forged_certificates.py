@@ -7,6 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 import sympy as sp
 
@@ -16,10 +17,13 @@ from flint import arb
 
 from lagrotor import Link, Scene
 from lagrotor.errors import InputError
+from lagrotor.mechanics import System, coordinates
 from lagrotor.models.orbits.shooting import QuarterPeriod
 from lagrotor.numerics.codegen import Program
-from lagrotor.proofs import NotProved, check, enclose, means, no_crossing, periodic_orbit, precession
-from lagrotor.proofs.balls import exact, precision
+from lagrotor.proofs import NotProved, check, enclose, equilibrium, means, no_crossing, periodic_orbit, precession
+from lagrotor.proofs.balls import as_text, ball_data, exact, precision
+from lagrotor.proofs.checker.checking import second_derivatives
+from lagrotor.proofs.checker.expression_tapes import tape_of_words
 from lagrotor.proofs.checker.reversals import check_reversal
 from lagrotor.proofs.checker.tapes import demand_pace, read_tape
 from lagrotor.proofs.fields import ball, scene_field, values_at
@@ -33,6 +37,53 @@ ENCLOSURE = plain(enclose(PENDULUM, {}, [1], [0], 2))
 ORBIT = plain(periodic_orbit(PENDULUM, {}, [1], [0], 6.7, reversals=[(1, -1)]))
 MEANS = means(PENDULUM, {}, [1], [0], [(sp.cos(THETA), 0, 1)])
 x, v, z = sp.symbols("x v z")
+
+
+def test_an_equilibrium_is_sought_about_the_middle_of_its_box() -> None:
+    """sin(1) + cos(1 + c) c = 0 for c = −0.89…: the test closes about 1 + c, where nothing rests."""
+    false = plain(equilibrium(PENDULUM, {}, [0.1]))
+    off = -0.85
+    for _ in range(60):
+        off = -np.sin(1) / np.cos(1 + off)
+    false |= {"middle": ["1p0"], "box": [ball_data(arb(off, 2**-20))], "A": [[as_text(arb(-1 / np.cos(1 + off)))]]}
+    false["claim"] = {"q": [ball_data(arb(1 + off, 2**-19))], "stability": "undecided"}
+    with pytest.raises(NotProved, match="does not contain its middle"):
+        check(false)
+
+
+def test_at_an_equilibrium_the_coordinates_rest_and_the_theorem_names_the_energy_that_is_definite() -> None:
+    whole = plain(equilibrium(PENDULUM, {}, [0.1]))
+    assert "it is stable. Its energy theta_dot**2/2 - cos(theta) is definite there and conserved." in check(whole)
+    for words, says in {
+        "cos(theta)": "the energy is not that of the Lagrangian",
+        "theta_dot**2 - theta**2": "the energy is not that of the Lagrangian",
+        "theta_dot**2 - 2*cos(theta)": "the energy is not that of the Lagrangian",
+        "heat": "cannot be read",
+    }.items():
+        with pytest.raises(NotProved, match=says):
+            check(whole | {"energy": words})
+    operations = whole["motion"]["operations"]
+    operations.append(["number", "1"])
+    whole["motion"]["outputs"][0] = len(operations) - 1
+    with pytest.raises(NotProved, match="the rates are not those of velocities"):
+        check(whole)
+    with pytest.raises(NotProved, match="the coordinates' rates are not the velocities"):
+        check(whole | {"about": None})
+
+
+X = coordinates("x y")
+BENT = System(
+    X, sum(s**2 for s in X.v) / (2 + sp.sin(X.q[0] * X.q[1])) - sp.exp(X.q[0] ** 2 - X.q[0] * X.q[1] + X.q[1] ** 2)
+)
+
+
+def test_second_derivatives_are_those_of_sympy() -> None:
+    at = [0.3, -0.2, 0.5, 0.7]
+    tape = tape_of_words([{"of": str(BENT.energy)}], [str(s) for s in (*X.q, *X.v)], None)
+    found = second_derivatives(tape, [arb(y) for y in at], 4)
+    exactly = sp.hessian(BENT.energy, (*X.q, *X.v)).subs(dict(zip((*X.q, *X.v), at, strict=True)))
+    for i, row in enumerate(found):
+        assert all(abs(float(y.mid()) - float(exactly[i, j])) < 1e-12 for j, y in enumerate(row))
 
 
 def motion(*rates: Any, states: Any = (x, v)) -> dict[str, Any]:
@@ -212,7 +263,9 @@ def places(data: Any, path: tuple[Any, ...] = ()) -> Any:
             yield from places(data[key], (*path, key))
 
 
-@pytest.mark.parametrize("certificate", [ENCLOSURE, ORBIT], ids=lambda c: c["kind"])
+@pytest.mark.parametrize(
+    "certificate", [ENCLOSURE, ORBIT, equilibrium(PENDULUM, {}, [0.1]).certificate], ids=lambda c: c["kind"]
+)
 def test_a_certificate_in_which_an_entry_is_another_is_refused_in_words(certificate: Any) -> None:
     chosen, every = random.Random(0), [path for path in places(certificate) if path]
     few = [path for path in every if "steps" not in path or path[:2] == ("steps", 0)]
@@ -224,11 +277,12 @@ def test_a_certificate_in_which_an_entry_is_another_is_refused_in_words(certific
             check(what)
 
 
+SADDLE = equilibrium(PENDULUM, {}, [3.1])
 PLANAR = periodic_orbit(HENON_HEILES, {}, [0, 0.3], [0, 0], 6.5, reversals=[(-1, 1, 1, -1)], fixed=["y"])
 PAIRED = precession(Scene((10, -10)), "0.2", 1e-12)
 QUIET = no_crossing(PENDULUM, {}, [1], [0], event=THETA + sp.Rational("1.001"), t_end=2)
 MADE: dict[str, Any] = {
-    **{"quiet": plain(QUIET), "mean": plain(MEANS), "planar": plain(PLANAR)},
+    **{"quiet": plain(QUIET), "mean": plain(MEANS), "rest": plain(SADDLE), "planar": plain(PLANAR)},
     **{"paired": plain(PAIRED), "enclosure": ENCLOSURE, "orbit": ORBIT},
 }
 ENTRIES: list[tuple[str, str, Any, str]] = [
@@ -240,7 +294,11 @@ ENTRIES: list[tuple[str, str, Any, str]] = [
     ("quiet", "kind", "crossing", "does not change its sign"),
     ("mean", "claim/means", [], "no mean is claimed"),
     ("mean", "claim/means/0/until", ["1p0", "2p0"], "the interval of a mean has no length"),
-    ("enclosure", "version", True, "version True"),
+    ("rest", "claim/stability", "stable", "the energy is not proved to be definite"),
+    ("rest", "claim/stability", "asymptotically stable", "not proved to have a negative real part"),
+    ("rest", "claim/stability", "stable to first order", "not proved to be imaginary"),
+    ("rest", "version", True, "version True"),
+    ("rest", "box/0/1", "0p0", "does not contain its middle"),
     ("orbit", "reversals", [[1, 1], [1, 1]], "not those of the second reversal"),
     ("orbit", "reversals", [[], []], "do not close the orbit"),
     ("orbit", "A", [["0p0"]], "does not close"),

@@ -16,7 +16,7 @@ from lagrotor.errors import InputError
 from lagrotor.mechanics import System, coordinates, t
 from lagrotor.numerics.codegen import Program
 from lagrotor.pair.notation import AXES
-from lagrotor.proofs import NotProved, check, crossing, enclose, precession
+from lagrotor.proofs import NotProved, check, crossing, enclose, equilibrium, precession
 from lagrotor.proofs.checker.expression_tapes import Words
 from lagrotor.proofs.checker.reversals import points_of
 from lagrotor.proofs.fields import field_of
@@ -38,6 +38,7 @@ THEOREMS: dict[str, Any] = {
     "rates in words": lambda: enclose(Program((x, v, K), (), (v, -K * sp.sin(x))), {K: 2}, [1], [0], "0.1"),
     "a scene that is pushed": lambda: crossing(SHOCKED, event=AXES.q[0] - sp.Rational(1, 1000), t_end="0.1", tol=1e-12),
     "a structure": lambda: enclose(CORNER, None, [(0.1, 0)] * 3, [(0, 0)] * 3, "0.02", 1e-12),
+    "an equilibrium": lambda: equilibrium(System(C, PENDULUM.L), VALUES, [0.1]),
 }
 
 
@@ -56,6 +57,7 @@ SAYS = {
     "= 1, I3 = 1 kg m², pushed at rotor 2 by (50, 0, 1) N exp(−((t − 0.02)/0.05)²), from t = 0 with all states 0.",
     "a structure": "the structure of rotors at (0, 0), (1, 0), (1, 1) m of 1 m, 1 kg, I1 = 1, I3 = 1 kg m²; bars 0–1 of 1 m, 1–2 "
     "of 1 m, each of 0.5 kg, 0.1 kg m²; spins 10, -10, 7 rad/s; gravity 9.81 m/s², from t = 0 with x_0 = 0.0999",
+    "an equilibrium": "is definite there and conserved. This is of the system with L = ell**2*m*theta_dot**2/2",
 }
 
 
@@ -116,6 +118,12 @@ OTHERS: dict[str, dict[str, list[Any]]] = {
         "start/middle/2": [["1p0", "0p0"]],
         "about/structure/bars": [[[0, 1, 1]]],
         "about/structure/braces": [[{"tip": 0, "to": [0, 3, 5], "stiffness": 1, "damping": 0}]],
+    },
+    "an equilibrium": {
+        f"{L}/dissipation": ["m*theta_dot**2/2"],
+        "energy": ["-ell*g*m*cos(theta) + ell**2*m*theta_dot**2"],
+        "claim/stability": ["asymptotically stable"],
+        "about": [None],
     },
 }
 

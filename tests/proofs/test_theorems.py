@@ -1,4 +1,4 @@
-"""Orbits and crossings proved: published numbers are held, false theorems are refused, certificates are verified."""
+"""Orbits, crossings and equilibria proved: published numbers are held, false theorems are refused, certificates are verified."""
 
 from typing import Any
 
@@ -20,6 +20,7 @@ from lagrotor.proofs import (
     check,
     crossing,
     enclose,
+    equilibrium,
     lohner_frames,
     means,
     no_crossing,
@@ -98,6 +99,36 @@ def test_arenstorf_s_orbit() -> None:
     assert near(orbit.period, "17.0652165601579625588917206249", "1e-15")
     assert near(orbit.start[3], "-2.00158510637908252240537862224", "1e-16")
     assert orbit.kind == "hyperbolic" and verified(orbit)
+
+
+def test_lagrange_s_points() -> None:
+    triangle = equilibrium(THREE_BODIES, {MU: 0.01}, [0.49, 0.866])
+    assert triangle.stability == "stable to first order" and verified(triangle)
+    assert equilibrium(THREE_BODIES, {MU: 0.05}, [0.45, 0.866]).stability == "unstable"
+    line = equilibrium(THREE_BODIES, {MU: 0.01}, [0.85, 0])
+    assert line.stability == "unstable" and line.q[1].contains(0) and verified(line)
+    assert equilibrium(PENDULUM, {}, [0.1]).stability == "stable" and verified(equilibrium(PENDULUM, {}, [0.1]))
+    with pytest.raises(NotProved):
+        equilibrium(System(C, RATE**2 / 2 + THETA), {}, [0])
+
+
+@pytest.mark.parametrize(
+    ("dissipation", "stability"),
+    [
+        (RATE**2 / 10, "asymptotically stable"),
+        (RATE**4 - RATE**2 / 10, "unstable"),
+        (RATE**6 - RATE**4, "undecided"),
+        (RATE**4 + THETA * RATE**2, "undecided"),
+    ],
+)
+def test_with_friction_the_linear_motion_decides(dissipation: sp.Expr, stability: str) -> None:
+    """Of Rayleigh's function: one that feeds slow motion, also to a higher order alone, or whose sign is not shown."""
+    found = equilibrium(System(C, RATE**2 / 2 + sp.cos(THETA), dissipation=dissipation), {}, [0.1])
+    assert found.stability == stability and f"it is {stability}." in verified(found)
+    if stability == "undecided":
+        false = found.certificate | {"claim": found.certificate["claim"] | {"stability": "stable to first order"}}
+        with pytest.raises(NotProved, match="the system is not conservative"):
+            check(false)
 
 
 @pytest.mark.parametrize(("r0", "link"), [(0.204, Link()), pytest.param(0.6, Link(1, 1, 1), marks=pytest.mark.slow)])

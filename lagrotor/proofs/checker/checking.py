@@ -8,19 +8,24 @@ from collections.abc import Callable, Sequence
 from math import isfinite
 from typing import Any
 
-from flint import arb, arb_poly, ctx
+from flint import arb, arb_mat, arb_poly, ctx
 
 from lagrotor.errors import InputError, NotProved
-from lagrotor.proofs.checker.bounded_series import evaluate, sign_over
+from lagrotor.proofs.checker.bounded_series import Dual, Series, evaluate, sign_over
 from lagrotor.proofs.checker.certified_sets import (
     MOST_BITS,
+    Flow,
     VerifiedSteps,
     balls,
+    column,
+    krawczyk,
+    matrix,
+    number,
     read_ball,
 )
 from lagrotor.proofs.checker.expression_tapes import tape_of_words
 from lagrotor.proofs.checker.orbit_checking import check_orbit
-from lagrotor.proofs.checker.subject_checking import check_subject
+from lagrotor.proofs.checker.subject_checking import LagrangianOfWords, check_subject, demand_equal, second_derivatives
 from lagrotor.proofs.checker.tapes import ZERO, demand, is_place
 from lagrotor.proofs.statements import theorem_of
 
@@ -178,10 +183,72 @@ def check_means(certificate: Any) -> None:
         demand(fits, "a claimed mean does not contain the enclosed one")
 
 
+def check_equilibrium(certificate: Any) -> None:
+    """Verify the Krawczyk test for the accelerations at rest, and the stability."""
+    flow = Flow(certificate["motion"])
+    n = flow.moving // 2
+    rates = [flow.tape["operations"][place] for place in flow.tape["outputs"][:n]]
+    demand(rates == [["argument", n + i] for i in range(n)], "the coordinates' rates are not the velocities")
+    middle, box = [number(x) for x in certificate["middle"]], balls(certificate["box"])
+    fits = len(middle) == len(box) == n and flow.size == flow.moving == 2 * n
+    demand(fits, "the equilibrium does not fit the motion")
+    demand(all(x.contains(0) for x in box), "the box does not contain its middle")
+    A = matrix(certificate["A"])
+    wide = [x + y for x, y in zip(middle, box, strict=True)]
+    at = gradients(flow.tape, flow, [*middle, *[ZERO] * n])
+    J = gradients(flow.tape, flow, [*wide, *[ZERO] * n])
+    value = column([f.value.at_start() for f in at[n:]])
+    slope = arb_mat([[x.at_start() for x in (f.by or [])[:n]] for f in J[n:]])
+    states = [x + y for x, y in zip(middle, krawczyk(value, slope, A, box), strict=True)]
+    fits = all(y.contains(x) for x, y in zip(states, balls(certificate["claim"]["q"]), strict=True))
+    demand(fits, "the claimed coordinates do not contain the equilibrium")
+    claim = certificate["claim"]["stability"]
+    kinds = ("stable", "asymptotically stable", "stable to first order", "unstable", "undecided")
+    demand(claim in kinds, "the claimed stability is unknown")
+    if claim == "unstable":
+        demand(any(z.real > 0 for z in linear(J, n).eig()), "no eigenvalue is proved to have a positive real part")
+    elif claim == "asymptotically stable":
+        demand(all(z.real < 0 for z in linear(J, n).eig()), "an eigenvalue is not proved to have a negative real part")
+    elif claim != "undecided":
+        check_stable(certificate, J, n, [*wide, *[ZERO] * n, *flow.parameters])
+
+
+def check_stable(certificate: Any, J: Sequence[Dual], n: int, state: list[Ball]) -> None:
+    """Verify that the energy of a conservative system is definite, or that its eigenvalues are distinct and imaginary."""
+    claim, about = certificate["claim"]["stability"], certificate["about"]
+    demand(about is not None and "Lagrangian" in about, "the theorem names no Lagrangian with a conserved energy")
+    system = LagrangianOfWords(certificate, about["Lagrangian"])
+    demand(system.autonomous and about["Lagrangian"]["dissipation"] == "0", "the system is not conservative")
+    if claim == "stable":
+        energy = system.words.place(certificate["energy"])
+        demand_equal(system.words, [energy], [system.energy()], "the energy is not that of the Lagrangian")
+        H = second_derivatives(system.words.tape([energy]), [*state, *system.others], 2 * n)
+        for k in range(1, 2 * n + 1):
+            demand(arb_mat([row[:k] for row in H[:k]]).det() > 0, "the energy is not proved to be definite")
+    else:
+        values = linear(J, n).eig()
+        apart = all(not a.imag.overlaps(b.imag) for i, a in enumerate(values) for b in values[:i])
+        demand(apart and all(z.real.contains(0) for z in values), "the eigenvalues are not proved to be imaginary")
+
+
+def linear(J: Sequence[Dual], n: int) -> Any:
+    """Return the matrix of the linearised motion in (q, v); J has the derivatives of the rates."""
+    zero = Series([ZERO], ZERO, 1)
+    return arb_mat([[x.at_start() for x in (f.by or [zero] * 2 * n)] for f in J])
+
+
+def gradients(tape: Any, flow: Flow, state: list[Ball]) -> list[Dual]:
+    """Return the outputs of the tape, each with its derivatives with respect to the states."""
+    rows = [Series([x], ZERO, 1) for x in state]
+    by = [[Series([arb(int(i == j))], ZERO, 1) for j in range(len(state))] for i in range(len(state))]
+    return evaluate(tape, flow.arguments(rows, [], by, 1))
+
+
 _RULES: dict[str, Callable[[Any], None]] = {
     "enclosure": check_enclosure,
     "crossing": check_crossing,
     "no crossing": check_no_crossing,
     "means": check_means,
     "periodic orbit": check_orbit,
+    "equilibrium": check_equilibrium,
 }

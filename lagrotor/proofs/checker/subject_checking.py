@@ -13,7 +13,7 @@ from flint import arb, arb_mat, fmpz_mod_ctx, fmpz_mod_mat
 
 from lagrotor.pair.scene import Link, Rotor, Scene, Shock
 from lagrotor.proofs.checker.bounded_series import Dual, Series, evaluate
-from lagrotor.proofs.checker.certified_sets import balls, read_ball
+from lagrotor.proofs.checker.certified_sets import balls, number, read_ball, term
 from lagrotor.proofs.checker.expression_tapes import Words
 from lagrotor.proofs.checker.reversals import points_of
 from lagrotor.proofs.checker.tapes import ZERO, demand, is_name, read_tape
@@ -72,14 +72,22 @@ def demand_equal(words: Words, first: Sequence[int], second: Sequence[int], what
 
 
 def _check_start(certificate: Any, words: Words, constraints: Sequence[int]) -> None:
-    """Verify that the start can satisfy the constraints. An orbit must not have any constraints."""
-    if certificate["kind"] == "periodic orbit":
-        demand(len(constraints) == 0, "an orbit must not have constraints")
+    """Verify that the start can satisfy the constraints. An orbit or equilibrium must not have any constraints."""
+    if certificate["kind"] in ("periodic orbit", "equilibrium"):
+        demand(len(constraints) == 0, "an equilibrium or orbit must not have constraints")
         return
     spread = balls(certificate["start"]["spread"])
-    middle = balls(certificate["start"]["middle"])
+    middle = _middle(certificate)
     residuals = _values(words, constraints, [x + y for x, y in zip(middle, spread, strict=True)], certificate)
     demand(all(x.contains(0) for x in residuals), "the start violates the constraints")
+
+
+def _middle(certificate: Any) -> list[Ball]:
+    """Return the middle of the initial set or of the equilibrium."""
+    if certificate["kind"] == "equilibrium":
+        at = [number(x) for x in certificate["middle"]]
+        return [*at, *[ZERO] * len(at)]
+    return balls(certificate["start"]["middle"])
 
 
 def _values(words: Words, places: Sequence[int], at: Sequence[Ball], certificate: Any) -> list[Ball]:
@@ -130,7 +138,7 @@ def _check_rates(certificate: Any, data: Any) -> None:
     rates = _rates(words, certificate)
     named = [words.place(text) for text in data]
     demand_equal(words, rates, named, "the rates are not those of the text")
-    _values(words, named, balls(certificate["start"]["middle"]), certificate)
+    _values(words, named, _middle(certificate), certificate)
 
 
 class LagrangianOfWords:
@@ -154,6 +162,8 @@ class LagrangianOfWords:
         constraints = [words.place(g) for g in data["constraints"]]
         residual = [words.slope(g, self.swept) for g in constraints]
         self.residual = residual + [words.place(f) for f in data["rolling"]]
+        self.others = [arb(1)] * len(symbols)  # the rates do not depend on these symbols
+        self.autonomous = not clock and not self.residual and data["forces"] == []
         named = [*(f"{q}_dot" for q in arguments[: self.n]), *["t"] * self.timed]
         fits = arguments[self.n : len(self.rates)] == named and len(self.forces) == self.n
         demand(fits, "the states are not coordinates, their velocities and the time")
@@ -175,6 +185,13 @@ class LagrangianOfWords:
             rows.append(words.keep("add", rate, d))
         return rows
 
+    def energy(self) -> int:
+        """Return the index on the tape of the energy v·∂L/∂v − L."""
+        words, total = self.words, self.words.keep("subtract", self.words.keep("number", "0"), self.L)
+        for v, p in zip(self.v, self.by(self.L, self.v), strict=True):
+            total = words.keep("add", total, words.keep("multiply", v, p))
+        return total
+
     def check(self) -> None:
         """Verify that the rates satisfy the equations of motion and keep the constraints."""
         words = self.words
@@ -193,10 +210,21 @@ class LagrangianOfWords:
         whole = [M + [row[i] for row in rows] for i, M in enumerate(slopes)]
         whole += [row + [zero] * k for row in rows]
         places = [*chain(*whole), self.L, self.D, *self.forces]
-        results = _values(words, places, balls(self.certificate["start"]["middle"]), self.certificate)
+        results = _values(words, places, _middle(self.certificate), self.certificate)
         # As a ball, since symbols can be dependent modulo a prime.
         regular = arb_mat(n + k, n + k, results[: (n + k) ** 2]).det() != 0
         demand(regular, "the Lagrangian is not proved to determine the accelerations")
+
+
+def second_derivatives(tape: Any, at: list[Ball], n: int) -> list[list[Ball]]:
+    """Return the second derivatives of an output with respect to n arguments, from series along each argument and pair."""
+
+    def along(*directions: int) -> Ball:
+        rows = [Dual(Series([x, arb(int(i in directions))], ZERO, 3)) for i, x in enumerate(at)]
+        return term(evaluate(tape, rows)[0].value, 2)
+
+    alone = [along(i) for i in range(n)]
+    return [[2 * alone[i] if i == j else along(i, j) - alone[i] - alone[j] for j in range(n)] for i in range(n)]
 
 
 _RULES: Mapping[str, Any] = {

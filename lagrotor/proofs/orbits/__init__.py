@@ -1,1 +1,1 @@
-"""Theorems about motions: enclosures, crossings and means, periodic orbits."""
+"""Theorems about motions: enclosures, crossings and means, periodic orbits, equilibria."""
