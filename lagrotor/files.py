@@ -78,6 +78,22 @@ def write_text(target: Path, text: str) -> Path:
     return write_beside(target, lambda file: file.write(text.encode()))
 
 
+def write_together(folder: Path, texts: Mapping[str, str]) -> tuple[Path, ...]:
+    """Write files of UTF-8 text, by name, into a folder, which is made if it is missing. All are written under other names first,
+    and renamed last, so that a full disk leaves the folder as it was."""
+    new = not folder.exists()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=folder, prefix=".") as beside:
+            for name, text in texts.items():
+                Path(beside, name).write_text(text, encoding="utf-8", newline="\n")
+            return tuple(Path(beside, name).replace(folder / name) for name in texts)
+    except OSError as error:
+        if new and folder.is_dir() and not any(folder.iterdir()):
+            folder.rmdir()
+        raise InputError(f"{folder}: {error.strerror or error}: choose a folder that can be written to") from None
+
+
 def write_arrays(target: Path, about: Mapping[str, Any], arrays: Mapping[str, Any]) -> Path:
     """Write arrays as .npz. The entry "about" is JSON: `about`, the version and a SHA-256 digest of all contents."""
     import numpy as np

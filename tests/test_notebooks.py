@@ -125,6 +125,15 @@ def test_control() -> None:
     assert ends[0].shape == (4, 4) and len(ends[1]) == 4 and ends[3] < 0.05
 
 
+def test_from_a_robot_file() -> None:
+    """An upright double pendulum has two unstable directions; a torque's symbol has no value in the description."""
+    names, ends = ran("from_a_robot_file")
+    A, B, rates = ends[1]
+    assert abs(names["run"].q[-1] - [np.pi, 0]).max() < 0.05
+    assert len(ends[0]) == 11 and A.shape == (4, 4) and B.shape == (4, 2) and sum(rate.real > 0 for rate in rates) == 2
+    assert [name for name, (_, value) in ends[4].items() if value is None] == ["tau_elbow", "tau_shoulder"]
+
+
 def test_from_sympy() -> None:
     _, ends = ran("from_sympy")
     assert ends[2] < 1e-12
@@ -138,6 +147,7 @@ def test_every_notebook_has_its_test_an_opening_and_no_output() -> None:
         "constraints_and_tensions",
         "control",
         "from_a_lagrangian",
+        "from_a_robot_file",
         "from_sympy",
         "my_own_pair",
         "one_equation_checked",

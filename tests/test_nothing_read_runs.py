@@ -479,6 +479,7 @@ READERS = {
     "lazy_imports.py": "own",
     "files.py": "arrays",
     "mechanics/robot_files/xml_elements.py": "robot file",
+    "mechanics/running/exports.py": "own",
     "mechanics/running/simulation.py": "arrays",
     "models/spring_link/run.py": "arrays",
     "models/sweeps/sweep_folder.py": "sweeps",

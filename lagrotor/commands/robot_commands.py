@@ -29,20 +29,43 @@ def add_robot(parser: argparse.ArgumentParser) -> None:
 
 
 def add_robot_commands(command: Command) -> None:
-    """Add the command equations."""
+    """Add the commands equations and export."""
     added = command(
         "equations",
         equations_command,
         "derive the equations of motion of a robot from its URDF or MJCF file",
         "lagrotor equations arm.urdf --out arm.html",
     )
-    added.add_argument("file", type=Path, metavar="FILE", help="a URDF or MJCF file")
-    add_robot(added)
-    says = "inertia: masses, centres and inertias are symbols (default); all: lengths, too; none: numbers"
-    added.add_argument("--symbols", choices=("inertia", "all", "none"), default="inertia", help=says)
+    _add_file(added)
     says = "of the text (default: by the name of --out, else markdown)"
     added.add_argument("--format", choices=tuple(_FORMATS.values()), help=says)
     added.add_argument("--out", type=Path, metavar="FILE", help="write a .md, .tex or .html instead of printing")
+    added = command(
+        "export",
+        export_command,
+        "write the equations of motion of a robot as functions of C, CasADi, JAX, Julia or MATLAB",
+        "lagrotor export arm.urdf --to c --out folder",
+    )
+    _add_file(added)
+    says = "the language; Octave reads the files of matlab"
+    added.add_argument("--to", required=True, choices=("c", "casadi", "jax", "julia", "matlab"), help=says)
+    says = "the folder, which is made if it is missing"
+    added.add_argument("--out", type=Path, required=True, metavar="FOLDER", help=says)
+    added.add_argument("--name", help="the first part of the names of files and functions (default: that of the file)")
+
+
+def _add_file(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("file", type=Path, metavar="FILE", help="a URDF or MJCF file")
+    add_robot(parser)
+    says = "inertia: masses, centres and inertias are symbols (default); all: lengths, too; none: numbers"
+    parser.add_argument("--symbols", choices=("inertia", "all", "none"), default="inertia", help=says)
+
+
+def export_command(options: argparse.Namespace) -> int:
+    system = read_robot(options.file, options.symbols, options.base)
+    name = options.file.stem if options.name is None else options.name
+    print("\n".join(map(str, system.export(options.to, options.out, name))))
+    return 0
 
 
 def read_robot(path: Path, symbols: Any, base: str) -> "RobotSystem":

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.running.simulation import SystemRun
     from lagrotor.mechanics.running.switches import Event, Impact
     from lagrotor.numerics.integrate import Engine
+    from lagrotor.numerics.languages import LanguageName
 
     Start = ArrayLike | Mapping[Any, float]
 
@@ -1104,6 +1105,48 @@ class System(Equations):
         initial_state.check_values("rhs", self, values)
         return flow.rhs(self, values, engine)
 
+    def export(self, language: "LanguageName", folder: "str | Path", name: str = "system") -> "tuple[Path, ...]":
+        """Write the equations as functions of another language, for other tools.
+
+        The functions are rhs, mass_matrix, forcing, inverse_dynamics, energy, joint_forces and jacobian, the last by exact
+        differentiation. They take the time t, the parameters p and the state x, which is (q, u) and then the first-order
+        states. `name.json` has the order of states, parameters and outputs, with their units. A warning gives the reason
+        if joint_forces is left out.
+
+        Parameters
+        ----------
+        language : {"c", "casadi", "jax", "julia", "matlab"}
+            The language. Octave reads the files of MATLAB.
+        folder : str or Path
+            The folder, which is made if it is missing.
+        name : str, default 'system'
+            The first part of the names of files and functions.
+
+        Returns
+        -------
+        tuple of Path
+            The files.
+
+        Raises
+        ------
+        InputError
+            If dry friction acts, a force contains a reaction, or a function has no expression; if a file of that name is
+            not from lagrotor or belongs to another system.
+
+        Examples
+        --------
+        >>> from tempfile import mkdtemp
+        >>> from sympy import cos, symbols
+        >>> from lagrotor.mechanics import coordinates
+        >>> (l, g), c = symbols("l g", positive=True), coordinates("theta")
+        >>> pendulum = System(c, l**2 * c.theta_dot**2 / 2 + g * l * cos(c.theta))
+        >>> [file.name for file in pendulum.export("c", mkdtemp(), "pendulum")]
+        ['pendulum.h', 'pendulum.c', 'pendulum.json']
+        """
+        from lagrotor.mechanics.running import exports
+
+        return exports.export(self, language, folder, name)
+
     def simulate(
         self,
         values: "Values",
@@ -1117,6 +1160,8 @@ class System(Equations):
         x0: "Start" = (),
     ) -> "SystemRun":
         """Integrate the equations of motion. Where forces contain sign(w), or the dissipation |w|, bodies can stick and slip.
+
+        The dissipation F √Q, with a quadratic form Q of velocities, is dry friction in several directions.
 
         A run that cannot reach its last time ends earlier with a LagrotorWarning, and `run.ending` gives the reason. Another
         warning names the time at which the constraints become dependent.

@@ -62,7 +62,7 @@ def reduce_common(program: Program) -> tuple[Sequence[Stage], Sequence[sp.Expr]]
     names, expressions = [name for name, _ in stages], [*(e for _, e in stages), *outputs]
     if program.shared and not _repeats(expressions):
         return stages, outputs
-    symbols = sp.numbered_symbols("c_", real=True)
+    symbols = sp.numbered_symbols("c_", exclude=names, real=True)  # also names of stages that no expression uses
     if program.shared:
         common, reduced = tree_cse(expressions, symbols, order="none")
     else:

@@ -18,7 +18,7 @@ import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -47,14 +47,20 @@ _PIECE = 2_000  # steps, after which a step longer than one that failed is tried
 _IN_VAIN = 3  # times that a step is shortened at one place without a smaller error
 
 
-def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
+def dop853_steps(segment: Segment, error: float, stiff: float = 0.0) -> Iterator[Any]:
     """Yield scipy's solver DOP853 after each step; after that the state is projected onto the constraints. The local error,
-    relative and absolute, is `error`."""
-    from scipy.integrate import DOP853
+    relative and absolute, is `error`. If `stiff` is not zero, the solver is Radau, for a motion whose fastest rate falls as the
+    time since the start grows. Then no step is longer than this time, and `stiff` is the increment for slopes."""
+    from scipy.integrate import DOP853, Radau
 
-    project = segment.project
+    project, increment, first_rate = segment.project, stiff, 0.0
+
+    def slopes(t: float, y: Array) -> Array:
+        f = np.asarray(segment.rhs(t, y))
+        return np.array([np.asarray(segment.rhs(t, y + each)) - f for each in increment * np.eye(len(y))]).T / increment
+
     with np.errstate(divide="ignore", invalid="ignore"):  # scipy's first step, where values are not finite
-        solver = DOP853(
+        solver = (partial(Radau, jac=slopes) if stiff else DOP853)(
             segment.rhs,
             segment.begin,
             segment.start,
@@ -68,9 +74,18 @@ def dop853_steps(segment: Segment, error: float) -> Iterator[Any]:
     if not np.isfinite(solver.h_abs):  # scipy would repeat this first step for ever
         solver.h_abs = _FIRST * (segment.until - segment.begin)
     while solver.status == "running":
+        longest = segment.longest
+        if stiff:  # an old Jacobian would hide the error
+            solver.J, solver.LU_real, solver.LU_complex = slopes(solver.t, solver.y), None, None
+            rate = float(np.linalg.norm(solver.J, 2))
+            first_rate = first_rate or rate
+            increment = stiff * first_rate / rate
+            longest = min(longest, max(solver.t - segment.begin, 1 / rate))
+            solver.max_step = longest
+            solver.h_abs = min(solver.h_abs, longest)
         if project is not None:  # no step over a singular position of the constraints
             limit = _TURN * (1 + np.abs(solver.y).max()) / (np.abs(solver.f).max() + 1e-300)
-            solver.max_step = min(segment.longest, limit, segment.clear(solver.y))
+            solver.max_step = min(longest, limit, segment.clear(solver.y))
         t, y = solver.t, solver.y
         with np.errstate(over="ignore", invalid="ignore"):  # a step too long in a stiff motion, which scipy repeats
             message = solver.step()

@@ -83,3 +83,11 @@ def test_refusals(words: tuple[str, ...], rod: str, tmp_path: Path, capsys: pyte
     assert main([files.get(word, word) for word in words]) == 2
     said = capsys.readouterr().err
     assert REFUSED[words] in said and said.count("\n") == 1
+
+
+def test_export_writes_the_functions_of_a_robot(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "my-rod.urdf").write_text(ROD)
+    assert main(["export", str(tmp_path / "my-rod.urdf"), "--to", "matlab", "--out", str(tmp_path / "out")]) == 0
+    files = [Path(line) for line in capsys.readouterr().out.split()]
+    assert files[0].name == "my_rod_rhs.m" and files[-1].name == "my_rod.json"
+    assert {*files} == {*(tmp_path / "out").iterdir()}

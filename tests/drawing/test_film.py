@@ -203,7 +203,7 @@ def test_trajectory_as_html(short):
     shown = short._repr_html_()
     assert shown.startswith("<table>")
     assert "minimal: smallest exact model" in shown
-    assert "10, -10" in shown
+    assert "10, −10" in shown
     scene = consistent_scene((1.0, 2.0), ((0, 0, 1), (0, 0, 1)), shock=Shock((1.0, 0.0, 0.0), 5.0, 0.1))
     assert "&lt;" not in simulate(scene, [0.0, 1.0])._repr_html_()
     alone = simulate(Scene((1.0, 2.0), link=None), [0.0, 1.0])._repr_html_()

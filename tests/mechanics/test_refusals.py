@@ -261,9 +261,15 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "rhs: m = 1j must be a real number": lambda: pendulum.rhs(VALUES | {m: 1j}),
         r"y = \[1, 2, 3\] must be 2 numbers": lambda: pendulum.rhs(VALUES)(0.0, [1, 2, 3]),
         "y = array.*U3": lambda: pendulum.rhs(VALUES)(0.0, np.array(["0.1", "2"])),
-        "dry friction in several": lambda: run(
-            System(P, FLAT, dissipation=k * sp.sqrt(u**2 + w**2)), {m: 1, k: 1}, (0, 0), (1, 2)
+        r"no friction −F ∂√Q/∂v there": lambda: run(
+            System(P, FLAT, forces=(-k * u / sp.sqrt(u**2 + w**2), 0)), {m: 1, k: 1}, (0, 0), (1, 2)
         ),
+        r"square of one velocity w: write Abs\(w\)": lambda: run(
+            System(P, FLAT, dissipation=k * sp.sqrt(u**2 + 2 * u * w + w**2)), {m: 1, k: 1}, (0, 0), (1, 2)
+        ),
+        "friction = 1 with 0 sliding velocities: with friction give slip": lambda: Impact(q, friction=1),
+        "friction = -1 must be a coefficient": lambda: Impact(q, friction=-1, slip=u),
+        "slip .*must be affine in the velocities": lambda: run(events=Impact(q, friction=1, slip=v**2)),
         r"q0 = \(1, 2\) must be 1 finite": lambda: run(q0=(1, 2)),
         r"q0 = array\(\[ True\]\) must be 1": lambda: run(q0=np.array([True])),
         r"v0 = \(inf,\) must be 1 finite": lambda: run(v0=(np.inf,)),

@@ -155,3 +155,9 @@ def test_a_stage_has_a_name_of_its_own() -> None:
         Program((x,), ((s, x + 1), (s, x + 2)), (s,))
     with pytest.raises(InputError, match="x names two quantities"):
         Program((x,), ((x, sp.Integer(2)),), (x,))
+
+
+def test_common_parts_do_not_take_the_name_of_a_stage_that_nothing_uses() -> None:
+    x, y, c = sp.symbols("x y c_0", real=True)
+    program = Program((x, y), ((c, sp.sin(x)),), (x * y + sp.cos(x * y), 1 / (x * y)))
+    assert compile_program(program)(2.0, 3.0) == [6 + np.cos(6.0), 1 / 6]

@@ -268,6 +268,7 @@ def _spline_of(where: str, name: str, value: Any) -> FunctionValue | None:
 def event_with(event: Event | Impact, substitute: Callable[[sp.Expr], sp.Expr]) -> Event | Impact:
     """Apply a substitution to the expressions of an event."""
     if isinstance(event, Impact):
-        return replace(event, gap=substitute(event.gap), restitution=substitute(event.restitution))
+        gap, restitution, friction, *slip = map(substitute, event.expressions)
+        return replace(event, gap=gap, restitution=restitution, friction=friction, slip=tuple(slip))
     velocities = None if event.velocities is None else tuple(map(substitute, event.velocities))
     return replace(event, section=substitute(event.section), velocities=velocities)

@@ -212,7 +212,8 @@ class SampledMotion(Run):
     def evaluate(self, expression: sp.Expr | str) -> Array:
         """Evaluate an expression along the run.
 
-        Where dry friction sticks, sign(w) is the friction force divided by its bound, between −1 and 1.
+        Where dry friction sticks, sign(w) is the friction force divided by its bound, between −1 and 1. In several directions
+        that is w/√Q. Where another force keeps w at zero, sign(w) is the value that does so.
 
         Parameters
         ----------

@@ -13,7 +13,9 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 import sympy as sp
 
-from lagrotor.mechanics.equations import Equations, time_derivative
+from lagrotor.algebra import derivative
+from lagrotor.mechanics.equations import Equations, reaction, time_derivative
+from lagrotor.mechanics.lagrangian import force_column, gradient, jacobian
 from lagrotor.mechanics.running.flow import Array, projection_of
 from lagrotor.mechanics.running.narrow_features import NarrowPart, with_followed
 from lagrotor.mechanics.running.programs import (
@@ -23,8 +25,8 @@ from lagrotor.mechanics.running.programs import (
     motion_program,
     parameter_values,
 )
-from lagrotor.mechanics.running.singular_positions import mass_at, rows_at, unbounded_force
-from lagrotor.mechanics.running.switches import Event, Impact, Surface, without_jumps
+from lagrotor.mechanics.running.singular_positions import independence, mass_at, rows_at, unbounded_force
+from lagrotor.mechanics.running.switches import Event, Impact, Surface, short, with_impacts, without_jumps
 from lagrotor.numerics.error_estimate import perturbed_state
 from lagrotor.numerics.pulse import Window, segments, windows_since
 from lagrotor.numerics.run import Ending
@@ -39,7 +41,13 @@ _ROUNDINGS = 64.0  # rounding errors of a state that make the noise of a conditi
 _NOISE = 1e-12  # of the size of a velocity or a reaction, below which it is zero
 _STEP = 1e-5  # of a size, by which a component is varied for the size of a function
 _AT_ONCE = 20  # events at one time, after which the motion is refused
+_SWEEPS = 20_000  # of the iteration for the impulses of an impact with friction
 _HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink by one factor; the time to their accumulation over the run
+_DEPENDENT = (
+    1e-8  # least singular value of the rows of contacts that stick, below which their forces are not determined
+)
+_SLOPE = 1e-4  # increment for slopes over the sliding speed; an inexact slope shortens the steps of Radau
+_FROM_REST = 0.25, 30.0  # Radau ends where the rate is so many times that at rest, and over the time since then
 SAFETY = 20.0  # local error of a run over the local error of the steps on which its events are sought
 
 
@@ -49,7 +57,8 @@ class ContactMode(NamedTuple):
     Attributes
     ----------
     signs : tuple of int
-        The sign of the argument of each surface, 1 or −1; 0 if the surface sticks.
+        The sign of the argument of each surface, 1 or −1; 0 if the surface sticks. Friction in several directions has 1 where it
+        slides, and the friction of an impact has 1 while its gap is open.
     closed : tuple of int
         1 for each closed gap, 0 for each open one.
     ended : int
@@ -169,12 +178,35 @@ class Switched:
         return not (self.surfaces or self.events)
 
     @property
+    def without_planar(self) -> Equations:
+        """The system without friction in several directions, which near rest is no narrow feature: a phase ends there."""
+        still = {s.sign: sp.S.Zero for s in self.surfaces if s.metric is not None}
+        return (
+            replace(self.system, forces=tuple(e.xreplace(still) for e in self.system.forces)) if still else self.system
+        )
+
+    @property
     def slipping(self) -> ContactMode:
         return ContactMode((1,) * len(self.surfaces), (0,) * len(self.impacts))
 
     @property
     def impacts(self) -> tuple[Impact, ...]:
         return tuple(e for e in self.events if isinstance(e, Impact))
+
+    def acts(self, i: int, mode: ContactMode) -> bool:
+        """Return False for the friction of an impact while its gap is open."""
+        impact = self.surfaces[i].impact
+        return impact is None or mode.closed[impact] == 1
+
+    def slide(self, i: int, at: Moment) -> tuple[float, float]:
+        """Return the argument w of a surface, or the sliding speed √Q if it has several directions, and the size of it."""
+        s = self.surfaces[i]
+        if s.metric is None:
+            (w,) = self.evaluate(self.system, [s.argument], at)
+            return float(w), float(self.sizes_of(self.system, [s.argument], at)[0])
+        units = [w / sp.sqrt(s.metric[k, k]) for k, w in enumerate(s.slips)]
+        (square,) = self.evaluate(self.system, [s.square], at)
+        return float(np.sqrt(square)), float(self.sizes_of(self.system, units, at).max())
 
     def mode(self, state: Array) -> ContactMode:
         numbers = tuple(int(x) for x in np.rint(state[self.size + 1 :]))
@@ -211,7 +243,7 @@ class Switched:
     def phase(self, mode: ContactMode) -> Phase:
         """Return the phase in which every contact stays in the state that the mode gives. Slip to either side has the same
         equations, since the sign of a slipping surface is a parameter."""
-        sticking = tuple(i for i, s in enumerate(mode.signs) if s == 0)
+        sticking = tuple(i for i, sign in enumerate(mode.signs) if sign == 0 and self.acts(i, mode))
         key = (sticking, mode.closed)
         if key not in self.phases:
             self.phases[key] = self._phase(*key)
@@ -219,34 +251,48 @@ class Switched:
 
     def _phase(self, sticking: tuple[int, ...], closed: tuple[int, ...]) -> Phase:
         base, still = self.system, {self.surfaces[i].sign: sp.S.Zero for i in sticking}
-        slips = [self.surfaces[i].argument.xreplace(still) for i in sticking]
+        held = {i: self.surfaces[i].slips or (self.surfaces[i].argument,) for i in sticking}
         gaps = [i for i, state in enumerate(closed) if state]
         labels, h = base.multiplier_names, len(base.constraints)
-        names = (*labels[:h], *(f"gap {i + 1}" for i in gaps), *labels[h:], *(f"held {i + 1}" for i in sticking))
+        directions = [f"held {i + 1}" + "′" * k for i, slips in held.items() for k in range(len(slips))]
+        names = (*labels[:h], *(f"gap {i + 1}" for i in gaps), *labels[h:], *directions)
+        forces = force_column(base.forces or None, base.c, "System")
+        for i, s in enumerate(self.surfaces):
+            if i in held and s.bound is None:  # the sign that keeps w at zero acts in place of the reaction Gᵀ λ
+                sign = reaction(f"held {i + 1}")
+                above, below = (forces.xreplace({s.sign: side}) for side in (sp.S.One, -sp.S.One))
+                forces = (above + below + sign * (above - below)) / 2 - sign * gradient(s.argument, base.c.v)
+            elif i not in held and s.impact in gaps:
+                forces += s.force(base.c)
         system = Equations(
             base.c,
             base.lagrangian.xreplace(still),
             (*base.constraints, *(self.impacts[i].gap for i in gaps)),
-            (*base.rolling, *slips),
+            (*base.rolling, *(w.xreplace(still) for slips in held.values() for w in slips)),
             base.dissipation.xreplace(still),
-            tuple(e.xreplace(still) for e in base.forces),
+            tuple(forces.xreplace(still)) if base.c.q else (),
             names,
             velocities=base.velocities,
             states=base.states,
         )
         lam, first = system.multipliers, len(base.constraints)
         conditions: list[tuple[str, int, sp.Expr]] = []
-        pressing = {*base.multipliers}
+        pressing = {*base.multipliers, *(reaction(f"gap {i + 1}") for i in gaps)}
         sizes = {s.sign for s in self.surfaces if s.argument.free_symbols & pressing}  # of reactions, by |λ|
+        at = len(lam) - len(directions)
         for i, s in enumerate(self.surfaces):
-            if i not in sticking:
-                conditions.append(("surface", i, s.sign * s.argument))
+            if i in held:
+                reactions, at = sp.Matrix(lam[at : at + len(held[i])]), at + len(held[i])
+                bound = s.bound.xreplace(still) if s.bound is not None else sp.S.One
+                if s.metric is None:
+                    conditions += [("above", i, bound - reactions[0]), ("below", i, bound + reactions[0])]
+                else:
+                    conditions.append(("cone", i, bound - sp.sqrt((reactions.T * s.metric * reactions)[0])))
+            elif s.impact is None or s.impact in gaps:
+                slides = s.sign * s.argument if s.metric is None else s.square - s.least**2
+                conditions.append(("surface", i, slides))
                 if s.bound is not None and s.bound.free_symbols & pressing and not s.bound.free_symbols & sizes:
-                    conditions.append(("pull", i, s.bound))
-            else:
-                reaction = lam[len(lam) - len(sticking) + sticking.index(i)]
-                bound = s.bound.xreplace(still) if s.bound is not None else sp.oo
-                conditions += [("above", i, bound - reaction), ("below", i, bound + reaction)]
+                    conditions += [("pull", i, s.bound)] if s.impact is None else []
         for i, impact in enumerate(self.impacts):
             if not closed[i]:
                 conditions.append(("gap", i, impact.gap))
@@ -260,6 +306,7 @@ def with_events(system: Equations, values: Mapping[Any, Any], events: tuple[Even
     """Return the system with its events. A sign symbol and a surface replace each jump of its forces."""
     smooth, surfaces = without_jumps(system)
     size = len(system.variables)
+    surfaces += with_impacts(smooth, [e for e in events if isinstance(e, Impact)])
     return Switched(smooth, values, surfaces, events, np.ones(size), np.zeros(size))
 
 
@@ -357,7 +404,12 @@ def _smooth(
     """Integrate one phase until its first condition fails, or to the last time. Return the motion, and the `Hit` or None. `habit`
     is the time in s between the last two events of the same kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
-    system, scale = phase.system, h.scale
+    system, scale, increment = phase.system, h.scale, 0.0
+    for i, s in enumerate(h.surfaces):
+        if s.metric is not None and mode.signs[i] and h.acts(i, mode):
+            y, numbers[str(s.least)], at_rest = _sliding(h, Moment(y, now, mode), i, local, times[-1])
+            if at_rest:
+                increment = _SLOPE * numbers[str(s.least)] / float(h.scale[h.moving].max())
     if depends_on_time(system):
         y, scale = np.append(y, now), np.append(scale, 1.0)
     motion = motion_program(system, h.narrow)
@@ -368,9 +420,10 @@ def _smooth(
 
     rhs = motion.rate(parameter_values(motion, numbers), now)
     segment = in_units(Segment(rhs, y, 0.0, times[-1], times, np.inf, budget, project), scale)
+    # From rest, the direction of sliding follows the force at a rate that is the higher the slower it slides.
     blocks, count, solver = [np.empty((0, len(y)))], 0, None
     try:
-        for solver in _steps(segment, windows_since(now, h.windows, companion), local / SAFETY):
+        for solver in _steps(segment, windows_since(now, h.windows, companion), local / SAFETY, increment):
             begin, end_of_step, dense = solver.t_old, solver.t, solver.dense_output()
 
             def curve(s: Array, dense: Any = dense) -> Array:
@@ -382,7 +435,9 @@ def _smooth(
             hit = None
             if phase.conditions:
                 ends, at = np.array([dense.y_old, solver.y]) * scale, np.array([now + begin, now + end_of_step])
-                rounding = np.abs(watch(perturbed_state(ends, _ROUNDINGS), at) - watch(ends, at)).max(1)
+                values, perturbed = watch(ends, at), watch(perturbed_state(ends, _ROUNDINGS), at)
+                by_clock = np.abs(np.diff(values)[:, 0]) * _ROUNDINGS * np.spacing(end_of_step) / (end_of_step - begin)
+                rounding = np.abs(perturbed - values).max(1) + by_clock
                 hit, hidden = _first(h, phase, conditions, begin, end_of_step, habit, rounding)
                 h.hidden.extend((now + a, now + b) for a, b in hidden)
             until = end_of_step if hit is None else hit.since
@@ -404,22 +459,31 @@ def _smooth(
     return Stretch(np.concatenate(blocks), solver.y * scale, solver.nfev), None
 
 
-def _steps(segment: Segment, windows: Sequence[Window], error: float) -> Iterator[Any]:
-    """Yield the solver after each step of DOP853, whose steps are bounded in the windows. Its `nfev` counts all evaluations of
-    the segment so far."""
-    y, nfev = segment.start, 0
+def _steps(segment: Segment, windows: Sequence[Window], error: float, stiff: float) -> Iterator[Any]:
+    """Yield the solver after each step of DOP853, whose steps are bounded in the windows. A motion that is stiff at first begins
+    with Radau, with the increment `stiff` for slopes. The `nfev` of the solver counts all evaluations of the segment so far."""
+    y, nfev, at_rest = segment.start, 0, 0.0
     for begin, until, longest in segments(segment.begin, segment.until, windows):
-        piece = replace(segment, start=y, begin=begin, until=until, longest=longest, budget=segment.budget - nfev)
-        try:
-            for solver in dop853_steps(piece, error):
-                solver.nfev += nfev
-                yield solver
-                solver.nfev -= nfev
-        except StopError as stop:
-            stop.evaluations += nfev
-            raise
-        solver.nfev += nfev
-        y, nfev = solver.y, solver.nfev
+        while begin < until:
+            piece = replace(segment, start=y, begin=begin, until=until, longest=longest, budget=segment.budget - nfev)
+            try:
+                for solver in dop853_steps(piece, error, stiff):
+                    solver.nfev += nfev
+                    yield solver
+                    solver.nfev -= nfev
+                    if stiff:
+                        rate = float(np.linalg.norm(solver.J, 2))
+                        at_rest = at_rest or rate
+                        since = solver.t - segment.begin
+                        if rate < min(_FROM_REST[0] * at_rest, _FROM_REST[1] / since):
+                            stiff = 0.0
+                            break
+            except StopError as stop:
+                stop.evaluations += nfev
+                raise
+            solver.nfev += nfev
+            begin, nfev = solver.t, solver.nfev
+            y = segment.project(solver.y) if segment.project else solver.y
 
 
 def _first(
@@ -475,11 +539,13 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
     if kind == "surface" and h.surfaces[i].argument.free_symbols & {*h.system.multipliers}:
         mode = mode.with_value("signs", i, -mode.signs[i])  # a reaction is reversed
     elif kind == "surface":
-        mode = mode.with_value("signs", i, _sign_beyond(h, at, i))
+        mode = mode.with_value("signs", i, _sign_beyond(h, at, i) if h.surfaces[i].metric is None else 0)
+    elif kind == "cone":
+        mode = mode.with_value("signs", i, 1)
     elif kind == "pull":
         raise StopError(
             at.t,
-            f"{h.surfaces[i].bound} becomes negative: the rubbing contact would pull, and opens or touches on its "
+            f"{short(h.surfaces[i].bound)} becomes negative: the rubbing contact would pull, and opens or touches on its "
             "other side; a guide that holds on both sides rubs by |reaction(…)|",
         )
     elif kind in ("above", "below"):
@@ -504,23 +570,115 @@ def _switch(h: Switched, at: Moment, hit: Hit, gone: float | None) -> Moment:
     if not np.isfinite(v).all():
         raise StopError(at.t, "the velocities after an event are not finite")
     moment = Moment(np.concatenate([at.y[: h.n], v, at.y[h.moving.stop : h.size]]), at.t, mode)
-    return moment._replace(mode=_settle(h, moment, fixed=kind in ("above", "below", "surface")))
+    return moment._replace(mode=_settle(h, moment, fixed=kind in ("above", "below", "surface", "cone")))
 
 
 def _rebound(h: Switched, at: Moment, i: int, e: float) -> tuple[Array, bool]:
     """Return the velocities (m,) after impact i, and True if the velocity of approach was zero. The impulse Λ obeys M Δv = Gᵀ Λ,
     and the gap opens with e times the velocity of approach."""
+    rubs = [k for k, s in enumerate(h.surfaces) if s.impact == i]
     mode = at.mode.with_value("closed", i, True)
-    system = h.phase(mode._replace(signs=tuple(s or 1 for s in mode.signs))).system
-    numbers, state = h.numbers(mode), np.append(at.y[: h.size], at.t)
-    G, M = rows_at(system, numbers, state), mass_at(system, numbers, state)
+    mode = mode._replace(signs=tuple(0 if k in rubs else s or 1 for k, s in enumerate(mode.signs)))
+    system = h.phase(mode).system
     speeds = h.evaluate(system, [system.residual[k] for k in system.left], at._replace(mode=mode))
     row = system.left.index(len(h.system.constraints) + sum(mode.closed[:i]))
+    G, W = _rows(h, system, at._replace(mode=mode))
     change = -speeds
     gentle = speeds[row] > -_NOISE * float(np.abs(G[row]) @ h.scale[h.moving])
     change[row] *= 1 if gentle else 1 + e
-    W = np.linalg.solve(M, G.T)
-    return np.asarray(at.y[h.moving] + W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]), bool(gentle)
+    impulse = np.linalg.lstsq(G @ W, change, rcond=None)[0]
+    if rubs:
+        (mu,) = h.evaluate(h.system, [h.impacts[i].friction], at)
+        tangents = slice(len(change) - len(h.impacts[i].slip), None)
+        impulse = _coulomb_impulse(G @ W, change, row, tangents, float(mu), at.t)
+        work = impulse @ (2 * speeds + G @ W @ impulse) / 2
+        if work > _NOISE * (np.abs(impulse) @ np.abs(speeds)):
+            raise StopError(
+                at.t,
+                f"Newton's restitution and friction would raise the energy by {work:.3g} J in an impact on "
+                f"{short(h.impacts[i].gap)} (Kane's paradox): take a smaller restitution, or give Event(velocities=…)",
+            )
+    return np.asarray(at.y[h.moving] + W @ impulse), bool(gentle)
+
+
+def _rows(h: Switched, system: Equations, at: Moment) -> tuple[Array, Array]:
+    """Return the rows G of the constraints of a phase, shape (k, m), and W = M⁻¹ Gᵀ."""
+    numbers, state = h.numbers(at.mode), np.append(at.y[: h.size], at.t)
+    G = rows_at(system, numbers, state)
+    return G, np.asarray(np.linalg.solve(mass_at(system, numbers, state), G.T))
+
+
+def _coulomb_impulse(D: Array, change: Array, row: int, tangents: slice, mu: float, at: float) -> Array:
+    """Return the impulses Λ (k,) with D Λ = change in all rows but the tangents. There the sliding velocity after the impact,
+    s⁺ = D Λ − change, is zero and |Λ_t| ≤ μ Λ_n, or Λ_t = −μ Λ_n s⁺/|s⁺|. The iteration projects Λ_t onto the cone."""
+    first = tangents.start
+    inner = np.linalg.pinv(D[:first, :first])
+    base, coupling = inner @ change[:first], inner @ D[:first, first:]
+    S, s = D[first:, first:] - D[first:, :first] @ coupling, D[first:, :first] @ base - change[first:]
+    length, push = np.linalg.norm(S, 2), np.zeros(len(change) - first)
+    for _ in range(_SWEEPS):
+        pressure = mu * max(base[row] - coupling[row] @ push, 0.0)
+        wanted = push - (s + S @ push) / length
+        wanted *= min(1.0, pressure / (np.linalg.norm(wanted) or 1.0))
+        settled = np.abs(wanted - push).max() <= 1e-15 * np.abs(wanted).max()
+        push = wanted
+        if settled:
+            return np.concatenate([base - coupling @ push, push])
+    raise StopError(at, "friction jams an impact: no impulse obeys Newton's and Coulomb's laws")
+
+
+def _sliding(h: Switched, at: Moment, i: int, local: float, duration: float) -> tuple[Array, float, bool]:
+    """Return the state at the beginning of a phase in which friction in several directions slides, the sliding speed that counts
+    as zero, the local error, and True if the surface was at rest. Then it gets twice this speed, against the force that would
+    hold it."""
+    s = h.surfaces[i]
+    assert s.metric is not None
+    speed, size = h.slide(i, at)
+    if speed >= 2 * local * size > 0:
+        return at.y, local * size, False
+    mode = at.mode.with_value("signs", i, 0)
+    system, count = h.phase(mode).system, len(s.slips)
+    held = slice(*(len(system.multipliers) - np.array([count, 0]) - _after(h, mode, i)))
+    moment = at._replace(mode=mode)
+    _check_held(h, moment)
+    G, W = _rows(h, system, moment)
+    rows = [system.left.index(k) for k in range(held.start, held.stop)]
+    entries = h.evaluate(
+        system, [*system.multipliers[held], *s.metric, *(system.residual[k] for k in system.left)], moment
+    )
+    force, metric, change = (
+        entries[:count],
+        entries[count : count + count**2].reshape(count, count),
+        -entries[count + count**2 :],
+    )
+    hold = np.sqrt(force @ metric @ force)
+    if hold == 0:
+        raise StopError(at.t, f"the bound {short(s.bound)} of dry friction is negative")
+    if not size:  # all at rest, before sizes are known
+        pull = (G @ W)[np.ix_(rows, rows)] @ force
+        size = local * duration * np.sqrt(abs(pull @ np.linalg.solve(metric, pull)))
+    change[rows] -= 2 * local * size * metric @ force / hold
+    y = at.y.copy()
+    y[h.moving] += W @ np.linalg.lstsq(G @ W, change, rcond=None)[0]
+    return y, local * size, True
+
+
+def _check_held(h: Switched, at: Moment) -> None:
+    """Raise StopError if several contacts stick in velocities that depend on each other."""
+    system, state = h.phase(at.mode).system, np.append(at.y[: h.size], at.t)
+    if at.mode.signs.count(0) < 2:
+        return
+    least = independence(system, h.numbers(at.mode), state[None])[0]
+    if len(system.left) > len(system.speeds) or least < _DEPENDENT:
+        way = "give friction to fewer contacts of a body"
+        raise StopError(
+            at.t, f"contacts that stick hold the same velocities, and their friction is not determined: {way}"
+        )
+
+
+def _after(h: Switched, mode: ContactMode, i: int) -> int:
+    """Return the number of sliding velocities that stick and belong to surfaces after surface i."""
+    return sum(len(s.slips) or 1 for k, s in enumerate(h.surfaces) if k > i and mode.signs[k] == 0 and h.acts(k, mode))
 
 
 def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
@@ -540,11 +698,10 @@ def _sign_beyond(h: Switched, at: Moment, i: int) -> int:
     if below < -size and above <= size:
         return -1
     if above > size and below < -size:
-        raise StopError(at.t, f"on {h.surfaces[i].argument} = 0 the motion may continue to either side")
-    if h.surfaces[i].bound is None:
-        raise StopError(
-            at.t, f"the motion stays on {h.surfaces[i].argument} = 0, where a force jumps that is not dry friction"
-        )
+        raise StopError(at.t, f"on {short(argument)} = 0 the motion may continue to either side")
+    if h.surfaces[i].bound is None and not h.surfaces[i].slips:
+        way = "it must be affine in velocities, and only forces may jump there"
+        raise StopError(at.t, f"the motion stays on {short(argument)} = 0, which is not followed: {way}")
     return 0
 
 
@@ -566,18 +723,23 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
     they are not taken from the velocities."""
     mode = at.mode
     if h.surfaces and not fixed:
-        arguments = [s.argument for s in h.surfaces]
-        w, noise = h.evaluate(h.system, arguments, at), _NOISE * h.sizes_of(h.system, arguments, at)
-        for i in map(int, np.flatnonzero(np.abs(w) > noise)):
-            mode = mode.with_value("signs", i, int(np.sign(w[i])))
-        for i in map(int, np.flatnonzero(np.abs(w) <= noise)):
-            mode = mode.with_value("signs", i, _sign_beyond(h, at._replace(mode=mode), i))
+        slides = [h.slide(i, at) for i in range(len(h.surfaces))]
+        at_zero = [abs(w) <= _NOISE * size for w, size in slides]
+        for i in np.argsort(at_zero, kind="stable").tolist():
+            sign = int(np.sign(slides[i][0]))
+            if at_zero[i]:
+                planar = h.surfaces[i].metric is not None
+                sign = int(not h.acts(i, mode)) if planar else _sign_beyond(h, at._replace(mode=mode), i)
+            mode = mode.with_value("signs", i, sign)
     for _ in range(2 * (len(mode.signs) + len(mode.closed)) + 1):
         phase = h.phase(mode)
-        reactions = [condition for condition in phase.conditions if condition[0] in ("above", "below", "reaction")]
+        reactions = [
+            condition for condition in phase.conditions if condition[0] in ("above", "below", "cone", "reaction")
+        ]
         if not reactions:
             break
         expressions, moment = [e for *_, e in reactions], at._replace(mode=mode)
+        _check_held(h, moment)
         values = h.evaluate(phase.system, expressions, moment)
         worst = int(np.argmin(values))
         size = np.abs(values).max() if len(values) > 1 else 0.0
@@ -620,10 +782,28 @@ def evaluate(h: Switched, expression: sp.Expr, times: Array, states: Array) -> A
             name: lam[i if i < c else i + closed] for i, name in enumerate(h.system.multipliers)
         }
         sticking = [s for s, sign in zip(h.surfaces, mode.signs, strict=True) if sign == 0]
-        for s, reaction in zip(sticking, lam[len(lam) - len(sticking) :], strict=True):
-            assert s.bound is not None
-            for w, holding in ((s.argument, -reaction / s.bound), (sp.expand(-s.argument), reaction / s.bound)):
-                substitutions |= {sp.sign(w): holding, sp.Abs(w): sp.S.Zero}
-        program = function_program(phase.system, expression.xreplace(substitutions))
+        at, e = len(lam) - sum(len(s.slips) or 1 for s in sticking), expression
+        for s in sticking:
+            forces, at = lam[at : at + (len(s.slips) or 1)], at + (len(s.slips) or 1)
+            ratio = forces[0] if s.bound is None else -forces[0] / s.bound
+            if s.metric is None:
+                for w, holding in ((s.argument, ratio), (sp.expand(-s.argument), -ratio)):
+                    substitutions |= {sp.sign(w): holding, sp.Abs(w): sp.S.Zero}
+            else:
+                e = _held(e, s, forces, h)
+        program = function_program(phase.system, e.xreplace(substitutions))
         values[in_mode] = program.along(h.numbers(mode))(states[in_mode], times[in_mode])[0]
     return values
+
+
+def _held(e: sp.Expr, s: Surface, forces: Sequence[sp.Symbol], h: Switched) -> sp.Expr:
+    """Return an expression in a phase where friction in several directions sticks. There √Q = 0, and the holding force over the
+    bound F replaces w/√Q: w = A_p (v − v₀) becomes −A_pp λ/F."""
+    unit, v = sp.Dummy("unit"), h.system.c.v
+    e = e.xreplace({1 / sp.sqrt(s.argument): unit, sp.sqrt(s.argument): sp.S.Zero})
+    if unit not in e.free_symbols:
+        return e
+    assert s.metric is not None and s.bound is not None
+    rows, slope = jacobian(list(s.slips), v), gradient(derivative(e, unit), v).T
+    ratio = slope * rows.T * (rows * rows.T).inv() * s.metric * sp.Matrix(forces) / s.bound
+    return e.xreplace({unit: sp.S.Zero}) - ratio[0]

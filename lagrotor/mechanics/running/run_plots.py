@@ -8,16 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import sympy as sp
 
-from lagrotor.algebra import derivative
 from lagrotor.algebra.scalar import sympified
-from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.errors import InputError, near
 from lagrotor.mechanics.bodies.rigid_bodies import Body
-from lagrotor.mechanics.equations import Equations
 from lagrotor.mechanics.expressions import vector_of
 from lagrotor.mechanics.glossary import latex, letter_latex
 from lagrotor.mechanics.running.flow import Array
 from lagrotor.mechanics.running.motion import SampledMotion
+from lagrotor.mechanics.units import units_of
 from lagrotor.numerics.run import check_nonempty
 
 if TYPE_CHECKING:
@@ -37,28 +35,16 @@ def plot(run: SampledMotion, *quantities: Any) -> "RunFigure":
 
     check_nonempty("plot", run.t)
     if not quantities:
-        both, units = (*run.system.c.q, *dict(run.system.states)), _units(run.system)
-        columns = zip(both, (*run.q.T, *run.x.T), strict=True)
-        labels = {f"${letter_latex(s)}${units.get(s, '')}": values for s, values in columns}
+        columns = zip((*run.system.c.q, *dict(run.system.states)), (*run.q.T, *run.x.T), strict=True)
+        labels = {_label(run, s): values for s, values in columns}
         return coordinates_figure(run.t, labels, run.energy, run.drift) if run.q.size else curves_figure(run.t, labels)
     curves = (_curve(run, quantity) for quantity in quantities)
     return curves_figure(run.t, {label.replace(r"\&", "&"): values for label, values in curves})  # matplotlib's escape
 
 
-def _units(system: Equations) -> dict[sp.Symbol, str]:
-    """Return {coordinate or velocity: " (unit)"} as far as the system tells them: an angle turns a frame or is the argument of a
-    sine or cosine, and a length shifts a frame."""
-    c, units = system.c, dict[sp.Symbol, str]()
-    for step in (step for body in system.bodies for step in body.frame.to_the_ground if step.parent is not None):
-        if step.axis is not None:
-            units[step.amount] = "rad"
-        units |= dict.fromkeys(step.shift, "m")
-    formulas = (*(() if system.bodies else (system.L,)), *system.constraints, *system.rolling)
-    for e in (part for formula in formulas for part in subexpressions(formula)):
-        slopes = [derivative(e.args[0], q) for q in c.q] if isinstance(e, sp.sin | sp.cos) else ()
-        units |= {q: "rad" for q, slope in zip(c.q, slopes, strict=False) if slope.is_Rational and slope != 0}
-    known = [(q, v, units[q]) for q, v in zip(c.q, c.v, strict=True) if q in units]
-    return {s: f" ({unit})" for q, v, unit in known for s, unit in ((q, unit), (v, f"{unit}/s"))}
+def _label(run: SampledMotion, letter: sp.Symbol) -> str:
+    unit = units_of(run.system).get(letter)
+    return f"${letter_latex(letter)}$" + (f" ({unit})" if unit else "")
 
 
 def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
@@ -68,7 +54,7 @@ def _curve(run: SampledMotion, what: Any) -> tuple[str, Array]:
     moving = dict(zip(map(str, letters), (*run.q.T, *run.v.T, *run.u.T, *run.x.T), strict=True))
     if name in moving:
         letter = next(s for s in letters if str(s) == name)
-        return f"${letter_latex(letter)}${_units(run.system).get(letter, '')}", moving[name]
+        return _label(run, letter), moving[name]
     if name in ("E", "energy"):
         return "$E$ (J)", run.energy
     if isinstance(what, str) and name in run.system.names:

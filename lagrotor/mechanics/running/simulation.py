@@ -167,7 +167,7 @@ class SystemRun(SampledMotion):
         swings = np.repeat(states[:1], 2, axis=0)  # the largest values of the motion, also between its samples
         swings[:, : len(scales.sizes)] = scales.sizes, -scales.sizes
         scales = replace(scales, windows=windows, survey=np.vstack([states, swings]))
-        narrow = narrow_parts(h.system, h.numbers(h.slipping), scales.survey)
+        narrow = narrow_parts(h.without_planar, h.numbers(h.slipping), scales.survey)
         h = replace(h, scale=powers_of_two(scales.sizes), sizes=scales.sizes, windows=windows, narrow=narrow)
         return SystemRun(
             **saved.fields, system=system, values=values, tol=tol, engine=engine, scales=scales, states=states,
@@ -342,6 +342,8 @@ def simulate_system(
             raise InputError(
                 f"simulate: the restitution {event.restitution} is {at_start[1]:.6g}: it must lie between 0 and 1"
             )
+        if isinstance(event, Impact) and not at_start[2] >= 0:
+            raise InputError(f"simulate: the friction {event.friction} is {at_start[2]:.6g}: it must be at least 0")
     if system.multipliers:
         q, v = _on_constraints(system, values, np.concatenate([q, v]), times)
     y = np.concatenate([q, v, x])
@@ -361,7 +363,7 @@ def simulate_system(
         return motion_scales(system, values, start, times, motion, h.windows if h.smooth else (), h.narrow)
 
     scales = survey()
-    if narrow := narrow_parts(h.system, h.numbers(h.slipping), scales.survey):
+    if narrow := narrow_parts(h.without_planar, h.numbers(h.slipping), scales.survey):
         h, first = replace(h, narrow=narrow), scales
         scales = replace(again := survey(), evaluations=again.evaluations + first.evaluations)
     if not h.smooth:

@@ -3,8 +3,15 @@
 An impact on a gap g(q, t) ≥ 0 changes the velocities along M⁻¹ Gᵀ alone, G = ∂g/∂q, so that (G v + b)⁺ = −e (G v + b)⁻. All
 constraints hold before and after it. Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts, ch. 7.
 
+With friction, an impulse Λ acts on the sliding velocities s, too. After the impact either s⁺ = 0 and |Λ| ≤ μ Λ_n, or Λ = −μ Λ_n
+s⁺/|s⁺|. Moreau, in: Nonsmooth Mechanics and Applications (1988).
+
 A force with sign(w) or |w| jumps on w = 0. The force −F sign(w) ∂w/∂v is dry friction: it may hold w at zero, with a reaction
-of at most F. Filippov, Differential Equations with Discontinuous Righthand Sides, §4.
+of at most F. Any other force that jumps may keep w at zero, if a value of sign(w) between −1 and 1 gives dw/dt = 0. Filippov,
+Differential Equations with Discontinuous Righthand Sides, §4.
+
+Dry friction in several directions is −F ∂√Q/∂v, where Q = (v − v₀)ᵀ A (v − v₀) is a quadratic form of rank r. With r independent
+rows p of A, Q = wᵀ A_pp⁻¹ w for the sliding velocities w = A_p (v − v₀). At w = 0 the reaction A_pᵀ λ holds while λᵀ A_pp λ ≤ F².
 """
 
 from collections.abc import Sequence
@@ -15,11 +22,12 @@ from typing import Any
 import sympy as sp
 
 from lagrotor.algebra import decide_zero, derivative
+from lagrotor.algebra.evidence import points
 from lagrotor.algebra.subexpressions import subexpressions
 from lagrotor.errors import InputError
-from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import expression, vector_of
-from lagrotor.mechanics.lagrangian import force_column, gradient, jacobian, t
+from lagrotor.mechanics.equations import Equations, reaction
+from lagrotor.mechanics.expressions import expression, put_in, vector_of
+from lagrotor.mechanics.lagrangian import Coordinates, depends_on, force_column, gradient, is_affine, jacobian, t
 
 
 @dataclass(frozen=True)
@@ -77,10 +85,21 @@ class Impact:
 
     Attributes
     ----------
-    gap : Expr
-        An expression in q and t, which does not become negative.
+    gap : Expr or Contact
+        An expression in q and t, which does not become negative, or the contact of a body, `body.rolls_on(surface, radius)`.
     restitution : Expr, default 1
         A number from 0 to 1 or a parameter.
+    friction : Expr, default 0
+        The coefficient of Coulomb friction, in the impact and while the gap is closed. The gap must be a distance in m.
+    slip : Expr or sequence of Expr, default ()
+        With friction, the sliding velocity at the contact in m/s, affine in v; in space its two components along
+        perpendicular axes of the tangential plane. A contact has it, an expression does not.
+
+    Notes
+    -----
+    Restitution is Newton's; the tangential impulse obeys Coulomb's law with the sliding velocity after the impact (Moreau).
+    An impact in which both laws would increase the energy ends the run (Kane's paradox). Other contacts that are closed take up
+    normal impulses, without friction.
 
     Examples
     --------
@@ -88,32 +107,91 @@ class Impact:
     >>> c = coordinates("x")
     >>> System(c, c.v[0]**2 / 2).simulate({}, (2,), (-1,), [0, 4], events=Impact(c.q[0], 0.5)).q.round(6).T
     array([[2., 1.]])
+
+    A ball that falls without spin strikes the floor with friction, slides and rolls:
+
+    >>> c = coordinates("x y theta")
+    >>> ball = System(c, c.x_dot**2 / 2 + c.y_dot**2 / 2 + c.theta_dot**2 / 5 - 10 * c.y)
+    >>> floor = Impact(c.y - 1, 0.5, friction=0.1, slip=c.x_dot + c.theta_dot)
+    >>> ball.simulate({}, (0, 2, 0), (7, 0, 0), [0, 9], events=floor).v[-1].round(6) + 0
+    array([ 5.,  0., -5.])
     """
 
     gap: sp.Expr
     restitution: sp.Expr = sp.S.One
+    friction: sp.Expr = sp.S.Zero
+    slip: tuple[sp.Expr, ...] = ()
 
     def __post_init__(self) -> None:
+        if hasattr(self.gap, "slips"):
+            object.__setattr__(self, "slip", self.slip or (self.gap.slips if self.friction != 0 else ()))
+            object.__setattr__(self, "gap", self.gap.gap)
         object.__setattr__(self, "gap", expression("Impact: gap", self.gap))
         e = expression("Impact: restitution", self.restitution)
         object.__setattr__(self, "restitution", e)
         if e.is_number and not 0 <= e <= 1:
             raise InputError(f"Impact: restitution = {e} must lie between 0, nothing rebounds, and 1, nothing is lost")
+        mu = expression("Impact: friction", self.friction)
+        object.__setattr__(self, "friction", mu)
+        slips = self.slip if isinstance(self.slip, Sequence | sp.MatrixBase) else (self.slip,)
+        object.__setattr__(self, "slip", vector_of("Impact: slip", slips, len(slips)))
+        if mu.is_number and not 0 <= mu < sp.oo:
+            raise InputError(f"Impact: friction = {mu} must be a coefficient of at least 0")
+        if (mu == 0) != (len(self.slip) == 0) or len(self.slip) > 2:
+            raise InputError(
+                f"Impact: friction = {mu} with {len(self.slip)} sliding velocities: with friction give slip, one or two "
+                "velocities at the contact, which the gap does not determine; without friction give none"
+            )
 
     @property
     def expressions(self) -> tuple[sp.Expr, ...]:
-        """Both expressions of the impact: its gap and its restitution."""
-        return self.gap, self.restitution
+        """All expressions of the impact: its gap, restitution and friction, and its sliding velocities."""
+        return self.gap, self.restitution, self.friction, *self.slip
 
 
 @dataclass(frozen=True)
 class Surface:
-    """A surface w(q, v, t) = 0 on which a force jumps; w is its argument. The symbol `sign` replaces sign(w). If the force is dry
-    friction, `bound` is its bound F, otherwise None."""
+    """A surface w(q, v, t) = 0 on which a force jumps.
+
+    Attributes
+    ----------
+    argument : Expr
+        w; for friction in several directions the square Q of the sliding speed.
+    sign : Symbol
+        The symbol in place of sign(w), or 1 in place of √Q/√Q while it slides.
+    bound : Expr or None
+        The bound F of dry friction; None for any other force.
+    slips : tuple of Expr
+        The sliding velocities of friction in several directions; otherwise () or, of a force that can keep w at zero, (w,).
+    metric : Matrix or None
+        A_pp of friction in several directions, with Q = wᵀ A_pp⁻¹ w.
+    impact : int or None
+        The index of the impact of which this is the friction, which acts while its gap is closed.
+    """
 
     argument: sp.Expr
     sign: sp.Symbol
     bound: sp.Expr | None
+    slips: tuple[sp.Expr, ...] = ()
+    metric: sp.Matrix | None = None
+    impact: int | None = None
+
+    @property
+    def least(self) -> sp.Symbol:
+        """The symbol of the sliding speed that counts as zero."""
+        return sp.Symbol(f"least {self.sign}", real=True)
+
+    @property
+    def square(self) -> sp.Expr:
+        """Q as a sum of squares, which rounding does not make negative."""
+        assert self.metric is not None
+        w = sp.Matrix(self.slips)
+        return self.argument if self.argument.is_nonnegative else (w.T * self.metric.inv() * w)[0]
+
+    def force(self, c: Coordinates) -> sp.Matrix:
+        """Return the friction force −F ∂√Q/∂v while it slides, shape (n, 1)."""
+        assert self.bound is not None
+        return -self.bound / (2 * sp.sqrt(self.square)) * gradient(self.square, c.v)
 
 
 def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
@@ -128,6 +206,9 @@ def check_events(system: Equations, events: Any) -> tuple[Event | Impact, ...]:
                 raise InputError(f"Impact: the gap {event.gap} contains {_names(wrong)}: it may depend only on q and t")
             if not event.gap.free_symbols & {*c.q}:
                 raise InputError(f"Impact: the gap {event.gap} contains no coordinate: no impact changes it")
+            for w in event.slip:
+                if not is_affine(w, c.v) or not depends_on(w, c.v) or w.free_symbols & {*c.a, *dict(system.states)}:
+                    raise InputError(f"Impact: slip {short(w)} must be affine in the velocities, in q, v and t alone")
         elif event.velocities is not None and len(event.velocities) != n:
             raise InputError(
                 f"Event: velocities has {len(event.velocities)} entries, but the system has {n} velocities: give one for each"
@@ -155,14 +236,12 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
             opposite = sp.expand(-w)
             s = -signs[opposite] if opposite in signs else signs.setdefault(w, sp.Symbol(f"sign({w})", real=True))
             substitutions[atom] = _smooth(atom, w, s)
-    for root in system.generalised_forces.atoms(sp.Pow):
-        if root.exp == sp.Rational(-1, 2) and _jumps_at_zero(system.generalised_forces, root.base, system.c.v):
-            raise InputError(
-                f"simulate: {root} is not defined where {root.base} = 0, and dry friction in several directions at once, "
-                f"which sticks there, is not supported: add the square of a small speed under the root, {root.base} + v_0**2; "
-                "a contact that would stick under a load f below the bound F then creeps at v_0 f/sqrt(F**2 - f**2)"
-            )
-    if not substitutions:
+    squares = {
+        root.base: sp.Symbol(f"slip {i + 1}", real=True)
+        for i, root in enumerate(sorted(system.generalised_forces.atoms(sp.Pow), key=sp.default_sort_key))
+        if root.exp == sp.Rational(-1, 2) and _jumps_at_zero(system.generalised_forces, root.base, system.c.v)
+    }
+    if not substitutions and not squares:
         return system, ()
     if nested := [atom for atom in substitutions if any(atom != outer and atom.has(outer) for outer in substitutions)]:
         way = "write each case as a system of its own, a saturation Max(-a, Min(a, u)) as (Abs(u + a) - Abs(u - a))/2"
@@ -184,7 +263,11 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
     }
     substitutions |= roots
     friction = gradient(system.dissipation.xreplace(substitutions), system.c.v)
-    forces = tuple((force_column(system.forces or None, system.c, "System") - friction).xreplace(substitutions))
+    forces = (force_column(system.forces or None, system.c, "System") - friction).xreplace(substitutions)
+    planar = tuple(_planar_friction(forces, square, s, system.c) for square, s in squares.items())
+    slides = {s.argument: s for s in planar}
+    powers = {e: slides[e.base] for e in forces.atoms(sp.Pow) if e.base in slides and not e.exp.is_integer}
+    forces = tuple(forces.xreplace({e: s.sign * s.square**e.exp for e, s in powers.items()}))
     smooth = replace(
         system,
         lagrangian=system.lagrangian.xreplace(substitutions),
@@ -192,7 +275,7 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
         dissipation=sp.S.Zero,
         states=tuple((x, f.xreplace(substitutions)) for x, f in system.states),
     )
-    surfaces = tuple(Surface(w, s, _friction(smooth, w, s)) for w, s in signs.items())
+    surfaces = tuple(_surface(smooth, w, s) for w, s in signs.items())
     if bound := [
         s.argument for s in surfaces if s.bound not in (None, 0) and s.argument.free_symbols & {*dict(system.states)}
     ]:
@@ -200,7 +283,63 @@ def without_jumps(system: Equations) -> tuple[Equations, tuple[Surface, ...]]:
         raise InputError(
             f"simulate: dry friction on {bound[0]} = 0 would bind a velocity to a first-order state: {way}"
         )
-    return smooth, surfaces
+    return smooth, surfaces + planar
+
+
+def with_impacts(system: Equations, impacts: Sequence[Impact]) -> tuple[Surface, ...]:
+    """Return a surface for the friction of each impact that has any."""
+    return tuple(
+        Surface(
+            sum((w**2 for w in impact.slip), sp.S.Zero),
+            sp.Symbol(f"impact {i + 1} slip", real=True),
+            impact.friction * reaction(f"gap {i + 1}"),
+            impact.slip,
+            sp.eye(len(impact.slip)),
+            i,
+        )
+        for i, impact in enumerate(impacts)
+        if impact.slip
+    )
+
+
+def _planar_friction(forces: sp.Matrix, square: sp.Expr, s: sp.Symbol, c: Coordinates) -> Surface:
+    """Return the surface of the force −F ∂√Q/∂v in `forces`, Q = `square`. Raise InputError if the force is another one."""
+    slope = gradient(square, c.v) / 2
+    A = jacobian(list(slope), c.v)
+    r = sp.Dummy("r", positive=True)
+    jump = [(sp.expand(e.xreplace({sp.sqrt(square): r, 1 / sp.sqrt(square): 1 / r}) * r)).subs(r, 0) for e in forces]
+    i = next(i for i, e in enumerate(jump) if e != 0 and slope[i] != 0)
+    F = sp.cancel(-jump[i] / slope[i])
+    if any(decide_zero(e + F * w).answer != "zero" for e, w in zip(jump, slope, strict=True)):
+        raise InputError(
+            f"simulate: the force jumps where Q = {short(square)} = 0 and is no friction −F ∂√Q/∂v there: give such a "
+            "dissipation, or add the square of a small speed under the root"
+        )
+    point = next(iter(points(A.free_symbols)))
+    numbers, rows = sp.Matrix(put_in(A, point)), list[int]()
+    for k in range(len(c.v)):
+        if numbers.extract([*rows, k], [*rows, k]).evalf(30).rank(iszerofunc=lambda e: abs(e) < _NO_JUMP) > len(rows):
+            rows.append(k)
+    if len(rows) == 1:
+        raise InputError(f"simulate: {short(square)} is the square of one velocity w: write Abs(w) for its root")
+    return Surface(square, s, F, tuple(slope[k] for k in rows), A.extract(rows, rows))
+
+
+def _surface(system: Equations, w: sp.Expr, s: sp.Symbol) -> Surface:
+    """Return the surface of a force that jumps with the sign s of w. Unless it is friction, w may stay at zero if it is affine in
+    the velocities and the sign is in forces alone."""
+    bound, c = _friction(system, w, s), system.c
+    elsewhere = [system.lagrangian, *(f for _, f in system.states)]
+    slides = depends_on(w, c.v) and is_affine(w, c.v) and not w.free_symbols & {*dict(system.states), *system.reactions}
+    if bound is None and slides and not any(s in e.free_symbols for e in elsewhere):
+        return Surface(w, s, None, (w,))
+    return Surface(w, s, bound)
+
+
+def short(e: sp.Expr) -> str:
+    """Return an expression for a message of one line; of a long one its beginning."""
+    text = str(e)
+    return text if len(text) <= _LONGEST else text[:_LONGEST] + " …"
 
 
 def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol]) -> bool:
@@ -225,6 +364,7 @@ def _is_a_jump(step: sp.DiracDelta, slope: sp.Expr, moving: Sequence[sp.Symbol])
     return False
 
 
+_LONGEST = 80  # characters of a formula in a message
 _TRIALS, _NO_JUMP = 12, 1e-8  # points from which a root is sought; a factor below which there is no jump
 _JUMPING = (sp.sign, sp.Abs, sp.Heaviside, sp.Max, sp.Min)
 

@@ -18,7 +18,6 @@ T = np.linspace(0, 1, 3)
 pendulum = System(c, m * length**2 * v**2 / 2 + 10 * m * length * sp.cos(x))
 plane = coordinates("x y")
 bound = System(plane, m * (plane.v[0] ** 2 + plane.v[1] ** 2) / 2, (plane.q[0] ** 2 + plane.q[1] ** 2 - length**2,))
-speed = sp.sqrt(plane.v[0] ** 2 + plane.v[1] ** 2)
 
 
 def run(**changed: Any) -> Any:
@@ -85,12 +84,6 @@ REFUSED: dict[str, tuple[Callable[[], Any], str]] = {
     "integral": (
         lambda: forced(sp.Integral(sp.sin(m), (m, 0, x))).simulate({}, (0.1,), (0,), T),
         "write it with elementary",
-    ),
-    "vector friction": (
-        lambda: System(
-            plane, (plane.v[0] ** 2 + plane.v[1] ** 2) / 2, forces=(-plane.v[0] / speed, -plane.v[1] / speed)
-        ).simulate({}, (0, 0), (1, 1), T),
-        "add the square of a small speed under the root",
     ),
 }
 
