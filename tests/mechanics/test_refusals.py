@@ -302,7 +302,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         # Symmetry and other coordinates
         r"ξ = \(1, 0\): give one component": lambda: pendulum.noether((1, 0)),
         "ξ = 1: give one component": lambda: pendulum.noether(1),
-        "without accelerations": lambda: pendulum.variation(A.a),
+        "without accelerations": lambda: pendulum.invariance(A.a),
         "gauge = theta_ddot contains theta_ddot": lambda: pendulum.noether((1,), a),
         "conserved: f = 'E' is no": lambda: pendulum.conserved("E"),
         "conserved: f = g must be": lambda: pendulum.conserved(g),
