@@ -400,9 +400,9 @@ def test_no_file_of_arrays_runs(tmp_path: Path) -> None:
         mark.unlink()
 
 
-def test_no_folder_of_a_sweep_and_no_table_runs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Pickles and Python in every file of the folder and in a table; the twin is numpy, told to read objects."""
-    mark, folder, table = tmp_path / "ran", tmp_path / "out", tmp_path / "scenes.csv"
+def test_no_folder_of_a_sweep_runs(tmp_path: Path) -> None:
+    """Pickles and Python in every file of the folder; the twin is numpy, told to read objects."""
+    mark, folder = tmp_path / "ran", tmp_path / "out"
     sweep([Scene((10, -10))], [0.0, 0.1], folder=folder)
     objects = np.empty(1, object)
     objects[0] = Call(eval, python(mark)[0])
@@ -416,10 +416,6 @@ def test_no_folder_of_a_sweep_and_no_table_runs(tmp_path: Path, capsys: pytest.C
                 _ = [np.asarray(getattr(Sweep.open(folder), name)) for name in ("axes", "errors", "models")]
             assert not mark.exists(), file.name
         file.write_bytes(kept)
-    for text in python(mark):
-        table.write_text(f"spins_1,spins_2\n{text},{text}\n", encoding="utf-8")
-        assert main(["sweep", "--columns", str(table)]) == 2 and not mark.exists()
-    assert "--columns" in capsys.readouterr().err
     np.load(tmp_path / "objects.npy", allow_pickle=True)
     assert mark.exists()
 
@@ -478,7 +474,6 @@ READERS = {
     "benchmark/records.py": "own",
     "commands/command_line.py": "own",
     "commands/paper_commands.py": "LaTeX",
-    "commands/scene_commands.py": "sweeps",
     "drawing/film.py": "own",
     "drawing/view.py": "own",
     "lazy_imports.py": "own",

@@ -14,7 +14,7 @@ from typing import Any
 from lagrotor.commands.robot_commands import add_robot, simulate_robot
 from lagrotor.commands.terminal import Command, add_json, check_folder, print_json, progress, table
 from lagrotor.errors import InputError
-from lagrotor.files import FILMS, PICTURES, read_text
+from lagrotor.files import FILMS, PICTURES
 from lagrotor.pair.examples import SCENES
 from lagrotor.pair.scene import Link, Scene, Shock
 
@@ -115,10 +115,6 @@ def add_sweep(added: argparse.ArgumentParser) -> None:
     says = "; ".join(f"{name}: {what}" for name, (what, _) in _VARIED.items())
     added.add_argument("--vary", choices=_VARIED, metavar="NAME", help=says)
     added.add_argument("--between", nargs=3, metavar=("FROM", "TO", "N"), help="N values, evenly from FROM to TO")
-    says = (
-        "in place of a scene and --vary: a table, a scene per line under names such as spins_1, rates_2z, link_length"
-    )
-    added.add_argument("--columns", type=Path, metavar="FILE.csv", help=says)
     added.add_argument("--t-end", type=float, default=10.0, metavar="S", help="end of the runs, s (default: 10)")
     added.add_argument("--samples", type=int, default=3, metavar="N", help="number of times (default: 3)")
     added.add_argument("--tol", type=float, default=1e-8, help=f"{_TOLERANCE} (default: 1e-8)")
@@ -133,7 +129,7 @@ def add_sweep(added: argparse.ArgumentParser) -> None:
 
 def _values(options: argparse.Namespace) -> list[float]:
     if options.vary is None or options.between is None:
-        raise InputError("--vary NAME and --between FROM TO N are needed, or --columns FILE.csv")
+        raise InputError("--vary NAME and --between FROM TO N are needed")
     try:
         first, last, count = float(options.between[0]), float(options.between[1]), int(options.between[2])
     except ValueError:
@@ -141,30 +137,6 @@ def _values(options: argparse.Namespace) -> list[float]:
     if not (math.isfinite(first) and math.isfinite(last) and 1 <= count <= _MOST):
         raise InputError(f"--between {' '.join(options.between)}: give finite numbers and a count from 1 to {_MOST}")
     return [first + (last - first) * i / max(count - 1, 1) for i in range(count)]
-
-
-def _columns(options: argparse.Namespace) -> dict[str, Any]:
-    """Return the columns of a CSV file by the names in its first line. An empty cell is NaN."""
-    link = (options.link_length, options.link_mass, options.link_inertia)
-    scene = (options.scene, options.spins, *link, options.shock, options.vary)
-    if any(value is not None for value in scene):
-        raise InputError("--columns: the file has the scenes: leave out --scene, --spins, --link, --shock and --vary")
-
-    import numpy as np
-
-    head, _, body = read_text(options.columns).partition("\n")
-    names = [name.strip(' "\r') for name in head.split(",")]
-    try:
-        rows = np.loadtxt(
-            body.splitlines(), delimiter=",", ndmin=2, converters=lambda cell: float(cell or "nan"), encoding="utf-8"
-        )
-        return dict(zip(names, rows.T, strict=True))
-    except ValueError as error:
-        why, remedy = (
-            str(error).split(";")[0].rstrip("."),
-            "give a line of names and then numbers, as many in each line",
-        )
-        raise InputError(f"--columns {options.columns}: {why}: {remedy}") from None
 
 
 @contextmanager
@@ -192,19 +164,13 @@ def _executor(options: argparse.Namespace) -> Iterator[Any]:
 
 
 def sweep_command(options: argparse.Namespace) -> int:
-    """Simulate the scene for each value of the varied parameter, or each scene of a table. Print one line per run, or the summary
-    of a folder."""
+    """Simulate the scene for each value of the varied parameter. Print one line per run, or the summary of a folder."""
     if not (math.isfinite(options.t_end) and options.t_end > 0):
         raise InputError(f"--t-end {options.t_end:g} must be above zero")
     if not 2 <= options.samples <= _MOST_SAMPLES:
         raise InputError(f"--samples {options.samples} must lie between 2 and {_MOST_SAMPLES}")
-    scenes: Any
-    if options.columns:
-        scenes = _columns(options)
-        name, values = "run", [float(i) for i in range(len(next(iter(scenes.values()))))]
-    else:
-        name, values, scene = options.vary, _values(options), scene_from_options(options)
-        scenes = [_VARIED[name][1](scene, value) for value in values]
+    name, values, scene = options.vary, _values(options), scene_from_options(options)
+    scenes = [_VARIED[name][1](scene, value) for value in values]
 
     import numpy as np
 

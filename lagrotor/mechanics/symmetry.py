@@ -79,7 +79,7 @@ def cyclic_coordinates(system: Equations) -> tuple[sp.Symbol, ...]:
 
 
 def variation(system: Equations, xi: Sequence[sp.Expr]) -> sp.Expr:
-    """Differentiate L along the prolonged vector field of ξ: `System.variation`."""
+    """Return δL = ∂L/∂q · ξ + ∂L/∂v · ξ' under q → q + ε ξ(q, v, t)."""
     c, field = system.c, _field(system, xi)
     carried = (total_derivative(component, c) for component in field)
     return along(system.L, (*c.q, *c.v), (*field, *carried))

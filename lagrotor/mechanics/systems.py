@@ -214,29 +214,6 @@ class System(Equations):
         """
         return symmetry.cyclic_coordinates(self)
 
-    def variation(self, xi: Sequence[sp.Expr]) -> sp.Expr:
-        """Return δL = ∂L/∂q · ξ + ∂L/∂v · ξ' under q → q + ε ξ(q, v, t).
-
-        Parameters
-        ----------
-        xi : sequence
-            The n components of ξ.
-
-        Returns
-        -------
-        Expr
-            δL in q, v, a and t.
-
-        Examples
-        --------
-        >>> from lagrotor.mechanics import coordinates
-        >>> c = coordinates("x y")
-        >>> fall = System(c, (c.x_dot**2 + c.y_dot**2) / 2 - 9 * c.y)
-        >>> fall.variation((0, 1))
-        -9
-        """
-        return symmetry.variation(self, xi)
-
     def invariance(self, xi: Sequence[sp.Expr], gauge: sp.Expr = sp.S.Zero) -> Decision:
         """Decide if δL + Q · ξ = dF/dt and G ξ = 0 identically: then p · ξ − F is conserved.
 

@@ -42,7 +42,7 @@ class Modes(Shown):
 
     - `rates`: the angular frequencies, (n,), rad/s; 0 for a mode that does not oscillate.
     - `growth`: the growth rates, (n,), 1/s. A growth below 1e-13 of the fastest root is set to zero.
-    - `shapes`: the x and y of each axis, (n, N, 2), with the largest component 1. `modes_about` gives displacements (n, N, 3).
+    - `shapes`: the x and y of each axis, (n, N, 2), with the largest component 1.
     - `topple`: the number of modes that grow.
     - `energy_signs`: the sign of ω² ū·M u + ū·K u, (n,): −1 if an oscillation has less energy than the equilibrium, 1 if it
       has more, 0 if the mode does not oscillate or grows.
@@ -238,8 +238,8 @@ def check_upright(s: Assembly, where: str) -> None:
     """Raise InputError, which names the caller `where`, if a bar does not have its upright length."""
     if not s.natural:
         raise InputError(
-            f"{where}: a bar does not have its upright length, and this linear motion is about upright axes: take "
-            "modes_about(rest_near(tilt)), or simulate it"
+            f"{where}: a bar does not have its upright length, and this linear motion is about upright axes: "
+            "simulate it"
         )
 
 
@@ -328,16 +328,15 @@ def first_largest(sizes: Array) -> Any:
     return (sizes > (1 - _ALIKE) * sizes.max(-1, keepdims=True)).argmax(-1)
 
 
-def modes_of(whole: SmallMotion, linear: SmallMotion, components: int = 2) -> Modes:
-    """Return the normal modes of `linear`, which is the system `whole` or its limit without inertia. `components` is the number
-    of components of each axis in the shapes, 2 or 3."""
+def modes_of(whole: SmallMotion, linear: SmallMotion) -> Modes:
+    """Return the normal modes of `linear`, which is the system `whole` or its limit without inertia."""
     roots, vectors = linear.waves
     turning = np.flatnonzero(roots.imag > 0)
     real = np.flatnonzero(roots.imag == 0)
     real = real[np.argsort(-roots[real].real, kind="stable")][: linear.bands - len(turning)]
     chosen = np.concatenate([turning, real])
     chosen = chosen[np.lexsort((roots[chosen].imag, -roots[chosen].real))]
-    shapes = (linear.basis @ vectors[:, chosen]).T.reshape(len(chosen), -1, components)
+    shapes = (linear.basis @ vectors[:, chosen]).T.reshape(len(chosen), -1, 2)
     largest = np.abs(shapes).reshape(len(chosen), -1)
     lead = shapes.reshape(len(chosen), -1)[np.arange(len(chosen)), first_largest(largest)]
     shapes = shapes / lead[:, None, None]

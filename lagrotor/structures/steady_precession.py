@@ -28,9 +28,8 @@ from lagrotor.structures.assembly import Assembly
 from lagrotor.structures.coefficients import Array, coefficients
 from lagrotor.structures.exact.bar_closure import close_bars
 from lagrotor.structures.exact.compiled_motion import right_hand_side
-from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion
-from lagrotor.structures.small_motion import check_upright, first_largest, modes
-from lagrotor.structures.tilted_equilibria import constraint_tangents
+from lagrotor.structures.exact.exact_motion import ExactMotion, exact_motion, pulls
+from lagrotor.structures.small_motion import check_upright, first_largest, left_by, modes
 
 _STEP = 1e-3  # of the differences of fourth order for the monodromy; half of it, of second order, in Newton's steps
 _CLOSED = 1e-11  # of axes and rates: the mismatch of a closed orbit
@@ -79,6 +78,17 @@ class SteadyPrecession(Shown):
             self.multipliers[2:], self.errors[2:]
         )
         return rows | {"growth": f"{self.growth:.6g} per turn" if self.growth else "none beyond the error"}
+
+
+def constraint_tangents(motion: ExactMotion, r: Array) -> Array:
+    """Return an orthonormal basis (3N, n) of the tangent space of the constraints at the axes r (N, 3)."""
+    c, N = motion.c, len(r)
+    rows = np.zeros((N + len(c.i), N, 3))
+    rows[np.arange(N), np.arange(N)] = r
+    bars = N + np.arange(len(c.i))
+    rows[bars, c.i], rows[bars, c.j] = pulls(c, r)
+    rank, vectors = left_by(rows.reshape(len(rows), -1))
+    return np.asarray(vectors[:, int(rank) :])
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,10 +21,9 @@ from lagrotor.structures import (
     small_motion,
     standing,
     steady_precession,
-    tilted_equilibria,
 )
 from lagrotor.structures.assembly import Assembly, Brace
-from lagrotor.structures.coefficients import Array, Complex
+from lagrotor.structures.coefficients import Complex
 from lagrotor.structures.exact.bar_closure import check_closure
 from lagrotor.structures.exact.exact_motion import Drive
 from lagrotor.structures.exact.structure_run import StructureRun, simulate_structure
@@ -166,57 +165,6 @@ class Structure(Assembly):
         [1.171, 1.171, 6.444, 6.444]
         """
         return small_motion.modes(self, inertia)
-
-    def rest_near(self, tilt: ArrayLike) -> Array:
-        """Find an equilibrium by descending in energy from given tilts of the axes.
-
-        Parameters
-        ----------
-        tilt : array_like
-            The components x and y of the axes at the start, (N, 2). If the structure is in equilibrium there, stable or not,
-            this position is returned.
-
-        Returns
-        -------
-        Array
-            The unit vectors of the axes, (N, 3).
-
-        Raises
-        ------
-        InputError, ConstraintError
-            If no equilibrium is reached, or the bars do not allow the tilt.
-
-        Examples
-        --------
-        >>> from lagrotor import Structure
-        >>> leaning = Structure([(0, 0)], gravity=9.81, hinge=4.5)
-        >>> leaning.rest_near([[0.3, 0.0]]).round(4).tolist()
-        [[0.654, 0.0, 0.7565]]
-        """
-        return tilted_equilibria.rest_near(self, tilt)
-
-    def modes_about(self, axes: ArrayLike) -> small_motion.Modes:
-        """Compute the normal modes about an equilibrium with tilted axes.
-
-        Parameters
-        ----------
-        axes : array_like
-            The axes (N, 3) at the equilibrium, from `rest_near`.
-
-        Returns
-        -------
-        Modes
-            The modes. Their shapes (n, N, 3) are displacements of the axes.
-
-        Examples
-        --------
-        >>> from lagrotor import Structure
-        >>> leaning = Structure([(0, 0)], gravity=9.81, hinge=4.5, spins=3)
-        >>> axes = leaning.rest_near([[0.3, 0.0]])
-        >>> leaning.modes_about(axes).rates.round(4).tolist()
-        [0.0, 2.5281]
-        """
-        return tilted_equilibria.modes_about(self, axes)
 
     def steady_precession(self, mode: int = 0, tilt: float = 0.1) -> steady_precession.SteadyPrecession:
         """Find the periodic orbit that continues a normal mode to a finite tilt.

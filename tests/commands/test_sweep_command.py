@@ -1,4 +1,4 @@
-"""The command sweep: a table of scenes, a folder that is resumed, processes, a cluster."""
+"""The command sweep: a folder that is resumed, processes, a cluster."""
 
 import json
 import os
@@ -10,33 +10,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lagrotor import Sweep, sweep
+from lagrotor import Scene, Sweep, paired_scene, sweep
 from lagrotor.commands.command_line import main
 from tests.models.sweep_family import assert_same_bits
 
 ROOT = Path(__file__).parents[2]
-TABLE = "spins_1,spins_2,rates_1y, rates_2y,link_length\n10,-10,0.1,0.1,1\n9,-10,0.1,0.1,\n8,-8,0.2,0.2,1.5\n"
 VARIED = ["sweep", "--spins", "10", "-10", "--vary", "paired", "--between", "0.05", "0.3"]
 
 
-@pytest.fixture
-def table(tmp_path: Path) -> str:
-    (tmp_path / "runs.csv").write_text(TABLE)
-    return str(tmp_path / "runs.csv")
-
-
-def test_a_table_is_the_sweep_of_its_columns(table: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["sweep", "--columns", table, "--t-end", "1", "--json"]) == 0
-    rows = json.loads(capsys.readouterr().out)
-    y = [0.1, 0.1, 0.2]
-    columns = {"spins_1": [10, 9, 8], "spins_2": [-10, -10, -8], "rates_1y": y, "rates_2y": y}
-    runs = sweep(columns | {"link_length": [1, np.nan, 1.5]}, [0, 0.5, 1], 1e-8)
-    assert [row["tip_1"] for row in rows] == [run.tips[0, -1].tolist() for run in runs]
-    assert [(row["run"], row["model"]) for row in rows] == [(0, "minimal"), (1, "spheres"), (2, "minimal")]
-
-
-def test_a_folder_is_summed_up_and_opened(table: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["sweep", "--columns", table, "--t-end", "1", "--samples", "5", "--folder", str(tmp_path / "out")]
+def test_a_folder_is_summed_up_and_opened(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = [*VARIED, "3", "--t-end", "1", "--samples", "5", "--folder", str(tmp_path / "out")]
     assert main(words) == 0
     said = capsys.readouterr()
     assert "runs                     3\n" in said.out and "[3/3]" in said.err
@@ -46,24 +29,16 @@ def test_a_folder_is_summed_up_and_opened(table: str, tmp_path: Path, capsys: py
 
 
 REFUSED = {
-    "neither": (["sweep", "--spins", "10", "-10"], "--vary NAME and --between FROM TO N are needed, or --columns"),
-    "both": ([*VARIED, "3", "--columns", "FILE"], "--columns: the file has the scenes: leave out"),
-    "no file": (["sweep", "--columns", "nowhere.csv"], "No such file"),
+    "neither": (["sweep", "--spins", "10", "-10"], "--vary NAME and --between FROM TO N are needed"),
     "no worker": ([*VARIED, "3", "--workers", "0"], "--workers 0: give 1 or more"),
     "two places": ([*VARIED, "3", "--workers", "2", "--scheduler", "tcp://x:1"], "without --scheduler"),
     "one sample": ([*VARIED, "3", "--samples", "1"], "--samples 1 must lie between 2"),
-    "a name": (["sweep", "--columns", "spin_1,spins_2\n1,2\n"], "'spin_1' is no column of scenes: spins_1"),
-    "a word": (["sweep", "--columns", "spins_1,spins_2\n1,x\n"], "could not convert string 'x' to float"),
-    "a short line": (["sweep", "--columns", "spins_1,spins_2\n1,2\n1\n"], "columns changed from 2 to 1 at row 2: give"),
-    "no numbers": (["sweep", "--columns", "spins_1,spins_2\n"], "give a line of names and then numbers"),
 }
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_bad_usage_is_one_line(name: str, table: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_bad_usage_is_one_line(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     words, says = REFUSED[name]
-    (tmp_path / "bad.csv").write_text(words[-1])
-    words = [str(tmp_path / "bad.csv") if "\n" in word else table if word == "FILE" else word for word in words]
     assert main(words) == 2
     said = capsys.readouterr().err
     assert says in said and said.count("\n") == 1
@@ -93,11 +68,7 @@ if __name__ == "__main__":
 @pytest.mark.parametrize("place", [[], ["--workers", "2"]], ids=["here", "processes"])
 def test_an_interrupt_says_how_to_go_on(place: list[str], number: signal.Signals, tmp_path: Path) -> None:
     folder = tmp_path / "out"
-    spins = np.linspace(9, 12, 16)
-    (tmp_path / "runs.csv").write_text(
-        "\n".join(["spins_1,spins_2,rates_1y,rates_2y", *(f"{w!r},-9,.3,.3" for w in spins.tolist())])
-    )
-    words = ["sweep", "--columns", str(tmp_path / "runs.csv"), "--t-end", "1", "--folder", str(folder), *place]
+    words = [*VARIED, "16", "--t-end", "1", "--folder", str(folder), *place]
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     stopped, done = (
         subprocess.run(
@@ -110,13 +81,13 @@ def test_an_interrupt_says_how_to_go_on(place: list[str], number: signal.Signals
     stop = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}[number]
     assert stopped.stderr == f"lagrotor: {stop}: the finished runs are in {folder}; the same command goes on\n"
     assert stopped.stdout == "" and done.returncode == 0 and "[16/16]" in done.stderr
-    columns = {"spins_1": spins, "spins_2": -9, "rates": ((0, 0.3, 0), (0, 0.3, 0))}
-    assert_same_bits(Sweep.open(folder), sweep(columns, np.linspace(0, 1, 3), 1e-8))
+    scenes = [paired_scene(Scene((10, -10)), 0.05 + 0.25 * i / 15) for i in range(16)]
+    assert_same_bits(Sweep.open(folder), sweep(scenes, np.linspace(0, 1, 3), 1e-8))
 
 
-def test_a_scheduler_runs_it(table: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_scheduler_runs_it(capsys: pytest.CaptureFixture[str]) -> None:
     distributed = pytest.importorskip("distributed", reason="the extra `cluster` is not installed")
-    words = ["sweep", "--columns", table, "--t-end", "1", "--json"]
+    words = [*VARIED, "3", "--t-end", "1", "--json"]
     with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=":0") as cluster:
         assert main([*words, "--scheduler", cluster.scheduler_address]) == 0
     there = capsys.readouterr().out

@@ -291,7 +291,6 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "evaluate: expression = Matrix.* is no": lambda: run().evaluate(sp.Matrix([q])),
         "at: times must lie between 0 and 1 s": lambda: run().at(2),
         "crossings: section = m does not change": lambda: run().crossings(m),
-        "of = theta must be 2 expressions": lambda: run().poincare(q, q),
         "plot: the run has no times": lambda: run().crossings(q - 7).plot(),
         "load: system = None must be the System": lambda: SystemRun.load("run.npz", None),
         "the energy has no real value": lambda: run(System(A, v**2 / 2 - sp.log(q)), {}, (-1,)),
@@ -303,7 +302,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         # Symmetry and other coordinates
         r"ξ = \(1, 0\): give one component": lambda: pendulum.noether((1, 0)),
         "ξ = 1: give one component": lambda: pendulum.noether(1),
-        "without accelerations": lambda: pendulum.variation(A.a),
+        "without accelerations": lambda: pendulum.invariance(A.a),
         "gauge = theta_ddot contains theta_ddot": lambda: pendulum.noether((1,), a),
         "conserved: f = 'E' is no": lambda: pendulum.conserved("E"),
         "conserved: f = g must be": lambda: pendulum.conserved(g),

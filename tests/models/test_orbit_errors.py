@@ -73,7 +73,6 @@ def held(answer: PrecessionOrbit, truth: Truth) -> dict[str, float]:
     found, scene, r0 = {}, answer.scene, answer.r0
     found["orbit"] = off(answer, truth) / answer.error
     found["frequency"] = abs(answer.frequency - truth.frequency) / answer.frequency_error
-    found["momentum"] = abs(answer.momentum - truth.momentum) / answer.momentum_error
     start = answer.start
     away, slower = np.array(start.axes) - truth.axes[:, 0], np.array(start.rates) / truth.frequency - truth.slope
     found["start"] = np.linalg.norm([away, slower], axis=-1).max() / (2 * answer.error)
@@ -143,14 +142,6 @@ def test_where_the_series_was_off_the_exact_orbit_answers(scene: Scene, r0: floa
     assert orbit.frequency == pytest.approx(seen, abs=6e-6)
     assert orbit.method.startswith("exact orbit")
     assert precession_orbit(scene, 0.05).method.startswith("series")
-
-
-def test_at_any_time_within_the_error_that_time_allows() -> None:
-    """A hundred turns later, against the exact orbit continued by its period; the phase's error adds up."""
-    truth, orbit = exact(MASSLESS, 0.2), precession_orbit(MASSLESS, 0.2, 1e-6)
-    times = 100 * 2 * np.pi / truth.frequency + np.linspace(0, 1, 41)
-    apart = np.linalg.norm(orbit(times) - truth(times), axis=-1).max()
-    assert orbit.error < apart < orbit.error_at(times).max()
 
 
 def test_an_orbit_of_negative_amplitude_is_half_a_period_later() -> None:

@@ -28,7 +28,7 @@ from lagrotor.models.spring_link.rigid_body import (
     printed_rotation,
 )
 from lagrotor.models.spring_link.run import rate_function, step_function
-from lagrotor.models.spring_link.system import join_bar, paper_bodies, printed_link_force
+from lagrotor.models.spring_link.system import join_bar, paper_bodies
 
 ZERO, ONE = np.zeros(3), np.eye(3)
 BAR = Link(length=1, mass=1, inertia=1)
@@ -104,11 +104,8 @@ def test_the_papers_shocked_run_turns_nan_with_the_printed_rotation_only():
 
 def test_link_forces_by_hand():
     gap, along, across = np.array([[0.1, 0, 0]]), np.array([[2.0, 0, 0]]), np.array([[0, 2.0, 0]])
-    for law in (link_force, printed_link_force):
-        assert law(gap, along, 30.0, 5.0) == pytest.approx(np.array([[-13.0, 0, 0]]))
+    assert link_force(gap, along, 30.0, 5.0) == pytest.approx(np.array([[-13.0, 0, 0]]))
     assert link_force(gap, across, 30.0, 5.0) == pytest.approx(np.array([[-3.0, -10.0, 0]]))
-    assert printed_link_force(gap, across, 30.0, 5.0) == pytest.approx(np.array([[-3.0, 0, 0]]))
-    assert (printed_link_force(0 * gap, along, 30.0, 5.0) == 0).all()
 
 
 @pytest.mark.parametrize("rotation", [finite_rotation, printed_rotation])

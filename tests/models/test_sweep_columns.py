@@ -19,7 +19,8 @@ VECTORS = [f"{i}{x}" for i in "12" for x in "xyz"]
 
 
 def nested() -> dict[str, Any]:
-    return {name: [getattr(scene, name) for scene in SCENES] for name in ("spins", "link", "shock", "axes", "rates")}
+    parts = {name: column for name, column in flat().items() if name.startswith(("link", "rotor", "shock"))}
+    return parts | {name: [getattr(scene, name) for scene in SCENES] for name in ("spins", "axes", "rates")}
 
 
 def flat() -> dict[str, Any]:
@@ -98,7 +99,6 @@ def test_what_is_missing_is_the_default_and_a_bar_without_a_length_is_none() -> 
     ]
     assert [scenes.scene(i) for i in range(3)] == expected
     assert scenes_of_table({"spins": (10, -10)}).scene(0) == Scene((10, -10))
-    assert scenes_of_table({"spins": (10, -10), "link": None}).scene(0) == Scene((10, -10), link=None)
 
 
 PAIR = {"spins": (10, -10)}
@@ -107,12 +107,11 @@ REFUSED: dict[str, tuple[Any, str]] = {
     "far name": (PAIR | {"colour": 1}, r"'colour' is no column of scenes: the names are spins, axes,"),
     "lengths": ({"spins_1": [1, 2], "spins_2": [1, 2, 3]}, r"the column spins_1 has 2 rows, spins_2 has 3"),
     "twice": (PAIR | {"spins_2": 1}, r"spins and spins_2 both state spins_2"),
-    "object and number": (PAIR | {"link": None, "link_mass": 1}, r"link and link_mass both state link_mass"),
     "no spins": ({"spins_1": 10}, r"the column spins_2 is missing"),
     "half a shock": (PAIR | {"shock_at": 1, "shock_width": 1}, r"the column shock_force_x is missing"),
     "shape": ({"spins": np.ones((4, 3))}, r"column spins must be numbers, of shape \(n, 2\).*not of shape \(4, 3\)"),
     "text": ({"spins_1": ["a"], "spins_2": 1}, r"the column spins_1 must be numbers, one per scene"),
-    "a wrong part": (PAIR | {"rotor": [None]}, r"the column rotor must be a Rotor"),
+    "a part": (PAIR | {"rotor": Rotor()}, r"'rotor' is no column of scenes"),
     "no rows": ({"spins_1": [], "spins_2": 1}, r"the table has no rows"),
     "a bad row": ({"spins": (1, 1), "axes_1x": [0, 0, 0.1]}, r"scene 2: Scene: axes\[0\] has length"),
     "half a row": (PAIR | {"rates_1x": [0, np.nan]}, r"scene 1: Scene: rates\[0\]\[0\] = nan"),

@@ -147,11 +147,6 @@ REFUSED = [
       for name in ("modes", "stands", "resonances")),
     (lambda: Structure([(0, 0), (1, 0)], spins=[10.0, 0.0], hinge=3.0).modes(inertia=False), "no spin acts"),
     (lambda: polygon_ring(6, spins=300.0, hinge=20.0).piece(6).modes(inertia=False), "no spin acts"),
-    (lambda: CORNER.modes_about([(0.6, 0, 0.8)] * 3), "not at rest"),
-    (lambda: FREE.modes_about([(0, 0, 1), (0.6, 0, 0.8)]), "not at rest"),  # the bar does not reach
-    (lambda: CORNER.rest_near(0.1j * np.ones((3, 2))), "numbers of shape"),
-    (lambda: CORNER.rest_near([(1, 0), (0, 0), (0, 0)]), "x² \\+ y² < 1"),
-    (lambda: CORNER.rest_near([(0.1, 0)]), "shape"),
     # resonances
     (lambda: local_hamiltonian(replace(CORNER, friction=0.1)), "friction"),
     (lambda: replace(CORNER, spins=1.0).resonances(), "a mode grows"),
@@ -239,7 +234,6 @@ def test_their_neighbours_are_not() -> None:
     s = Structure(joints=[(0, 0), (1, 0), (0, 1)], bars=[(0, 1, 1.1), (1, 2, 1.3), (0, 2, 1.2)], spins=2)
     assert not s.natural and s.spins == (2, 2, 2)
     assert len(FAST.modes(inertia=False).rates) == 1 and replace(FAST, spins=(1_000.0,)).modes()
-    assert FREE.modes_about([(0.6, 0, 0.8)] * 2).topple == 0
     arrays = {"joints": np.array([[0, 0], [1, 0]]), "bars": np.array([[0, 1]]), "spins": np.array([1, 2])}
     assert Structure(**arrays, load=np.float64(2)) == Structure(**PAIR | {"spins": [1, 2]}, load=2)
 

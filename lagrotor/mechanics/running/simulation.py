@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 
 from lagrotor.errors import ConstraintError, InputError, LagrotorWarning
 from lagrotor.mechanics.equations import Equations
-from lagrotor.mechanics.expressions import vector_of
 from lagrotor.mechanics.lagrangian import jacobian
 from lagrotor.mechanics.lagrangian import t as time
 from lagrotor.mechanics.running import run_plots, sections
@@ -209,35 +208,6 @@ class SystemRun(SampledMotion):
         array([1.570796])
         """
         return sections.crossings(self, section, direction)
-
-    def poincare(self, section: sp.Expr, of: Sequence[sp.Expr], direction: int = 1) -> Array:
-        """Evaluate expressions at the crossings of a section; two of them give the points of a Poincaré section.
-
-        Parameters
-        ----------
-        section : Expr
-            An expression in q, v and t.
-        of : sequence of Expr
-            The k expressions to evaluate.
-        direction : {1, -1, 0}, default 1
-            Upward crossings (1), downward ones (−1) or both (0).
-
-        Returns
-        -------
-        Array
-            Shape (m, k) at m crossings.
-
-        Examples
-        --------
-        >>> from lagrotor.mechanics import System, coordinates
-        >>> c = coordinates("x")
-        >>> run = System(c, (c.v[0]**2 - c.q[0]**2) / 2).simulate({}, (1,), (0,), [0, 6])
-        >>> run.poincare(c.v[0], (c.q[0], c.q[0]**2)).round(6)
-        array([[-1.,  1.]])
-        """
-        expressions = vector_of("poincare: of", of, len(of) if isinstance(of, Sequence) else 2)
-        crossings = self.crossings(section, direction)
-        return np.stack([crossings.evaluate(e) for e in expressions], axis=1)
 
     def lyapunov(self) -> Lyapunov:
         """Compute the largest Lyapunov exponent over the run; for a regular motion it falls as log(t)/t.

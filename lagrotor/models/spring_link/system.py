@@ -49,18 +49,6 @@ def link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
     return -S * gap - D * rate
 
 
-def printed_link_force(gap: Array, rate: Array, S: float, D: float) -> Array:
-    """Return −(S |gap| + D rate · e) e with e = gap/|gap|, (n, 3) in N: 3.19 as printed, with the arguments of `link_force`.
-
-    Only these signs are consistent: F_12 acts from vertex 1 on vertex 2, and ê_21, which the printed spring term lacks, points
-    from 2 to 1. The damper acts along the line of separation only, so that it does not damp a gap that circles. At gap = 0,
-    where every joint starts, e is 0/0; here it is set to 0, which means no damping.
-    """
-    size = np.linalg.norm(gap, axis=1, keepdims=True)
-    e = gap / (size + (size == 0))
-    return -S * gap - D * (rate * e).sum(1, keepdims=True) * e
-
-
 class RigidBodySystem:
     """Bodies, links between their vertices, and the paper's step. Bodies and vertices count from 1, as in the paper.
 

@@ -6,12 +6,11 @@ from math import nan
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrotor.errors import InputError, near
 from lagrotor.models.sweeps.scene_columns import SceneColumns
 from lagrotor.numerics.arrays import Array, real_array
-from lagrotor.pair.scene import Link, Rotor, Scene, Shock
+from lagrotor.pair.scene import Link, Rotor, Scene
 
 _VECTORS = [f"{i}{x}" for i in "12" for x in "xyz"]
 # The fields of SceneColumns, each with the names of its numbers.
@@ -24,7 +23,6 @@ FLAT = {
     "rates": tuple(f"rates_{label}" for label in _VECTORS),
 }
 _NESTED = {"spins": (2,), "axes": (2, 3), "rates": (2, 3), "shock_force": (3,)}  # with the shape of one row
-_PARTS = {"rotor": Rotor, "link": Link, "shock": Shock}
 _NEEDED_OF_A_SHOCK = FLAT["shock"][:5]
 
 
@@ -72,12 +70,10 @@ def scenes_of_table(data: Any) -> SceneColumns:
 
 def _numbers(name: str, values: Any) -> dict[str, Array]:
     """Return {flat name: its numbers, of shape (n,), or () for one number for all scenes} of a column of the table."""
-    if name in _PARTS:
-        return _of_parts(name, values)
     flat = next((names for names in FLAT.values() if name in names), ())
     row = () if flat else _NESTED.get(name)
     if row is None:
-        names = [*_NESTED, *_PARTS, *(each for names in FLAT.values() for each in names)]
+        names = [*_NESTED, *(each for names in FLAT.values() for each in names)]
         hint = near(name, names) or f": the names are {', '.join(dict.fromkeys(names))}"
         raise InputError(f"sweep: {name!r} is no column of scenes{hint}")
     tuples = row and getattr(getattr(values, "dtype", None), "kind", "") == "O"  # in a column of a DataFrame
@@ -90,14 +86,3 @@ def _numbers(name: str, values: Any) -> dict[str, Array]:
         return {name: array}
     of_row = FLAT["shock"][:3] if name == "shock_force" else FLAT[name]
     return dict(zip(of_row, np.moveaxis(array.reshape(*array.shape[: array.ndim - len(row)], -1), -1, 0), strict=True))
-
-
-def _of_parts(name: str, values: Any) -> dict[str, Array]:
-    """Return the numbers of a column of rotors, bars or shocks, or of one for all scenes. None is no bar or no shock."""
-    kind, alone = _PARTS[name], values is None or isinstance(values, Rotor | Link | Shock)
-    parts = [values] if alone else list(values) if hasattr(values, "__iter__") else [values]
-    if not all(isinstance(part, kind) or (part is None and name != "rotor") for part in parts):
-        raise InputError(f"sweep: the column {name} must be a {kind.__name__} or one per scene: or give {FLAT[name]}")
-    scenes = SceneColumns.of_scenes([Scene((1.0, 1.0), **({"link": None} | {name: part})) for part in parts])
-    columns: NDArray[Any] = getattr(scenes, name)
-    return dict(zip(FLAT[name], columns[0] if alone else columns.T, strict=True))

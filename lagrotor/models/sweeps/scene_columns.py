@@ -52,18 +52,7 @@ class SceneColumns:
 
     @classmethod
     def of_scenes(cls, scenes: Sequence[Scene]) -> "SceneColumns":
-        """Return the columns of some scenes.
-
-        Parameters
-        ----------
-        scenes : sequence of Scene
-            The scenes.
-
-        Returns
-        -------
-        SceneColumns
-            The columns, with a row for each scene.
-        """
+        """Return the columns of some scenes, with a row for each."""
         rotors, links, shocks = ([getattr(s, name) for s in scenes] for name in ("rotor", "link", "shock"))
         no_link, no_shock = (np.nan,) * 3, (np.nan,) * 6
         return cls(
@@ -79,36 +68,12 @@ class SceneColumns:
         return len(self.spins)
 
     def take(self, indices: ArrayLike) -> "SceneColumns":
-        """Return some of the scenes.
-
-        Parameters
-        ----------
-        indices : array_like
-            The numbers of the rows (k,), or a mask (n,).
-
-        Returns
-        -------
-        SceneColumns
-            The columns of these scenes.
-        """
+        """Return the scenes of some rows, given by their numbers (k,) or by a mask (n,)."""
         rows = np.asarray(indices)
         return SceneColumns(*(getattr(self, f.name)[rows] for f in fields(self)))
 
     def since(self, begin: float, duration: float) -> "SceneColumns":
-        """Return the scenes with time counted from a moment, without the shocks that do not act in the time after it.
-
-        Parameters
-        ----------
-        begin : float
-            The moment in s.
-        duration : float
-            The time after it in s.
-
-        Returns
-        -------
-        SceneColumns
-            The columns.
-        """
+        """Return the scenes with time counted from `begin`, without shocks that do not act in the `duration` after it, in s."""
         shock = self.shock.copy()
         shock[:, 3] -= begin
         reach = PULSE_REACH * shock[:, 4]
@@ -116,23 +81,7 @@ class SceneColumns:
         return replace(self, shock=shock)
 
     def scene(self, i: int) -> Scene:
-        """Return one scene.
-
-        Parameters
-        ----------
-        i : int
-            The number of the row.
-
-        Returns
-        -------
-        Scene
-            The scene.
-
-        Raises
-        ------
-        InputError
-            If the row describes no valid scene.
-        """
+        """Return the scene of row i; raise InputError if the row describes none."""
         link, shock = self.link[i].tolist(), self.shock[i].tolist()
         return Scene(
             spins=tuple(self.spins[i].tolist()),
@@ -154,18 +103,7 @@ class SceneColumns:
         return np.asarray(~np.isnan(self.shock).all(1))
 
     def check(self, first: int = 0) -> None:
-        """Check that each row describes a valid scene.
-
-        Parameters
-        ----------
-        first : int, default 0
-            The number of the first row in messages.
-
-        Raises
-        ------
-        InputError
-            For the first invalid row, with its number and the message of the invalid scene.
-        """
+        """Raise InputError for the first row that describes no valid scene; in the message row 0 has the number `first`."""
         with np.errstate(all="ignore"):
             suspicious = np.flatnonzero(~self._surely_valid())
         for i in suspicious.tolist():

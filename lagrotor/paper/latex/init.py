@@ -59,19 +59,9 @@ class NewPaper:
 
 
 def begin_paper(folder: Path, source: Path | None = None) -> NewPaper:
-    """Make the folder of a paper, or update it from its source.
+    """Make the folder of a paper with a worked example or with the equations of a source; renew them if it is a paper already.
 
-    Parameters
-    ----------
-    folder : Path
-        A new or empty folder, or an existing paper.
-    source : Path, optional
-        The LaTeX file; without it the folder gets a worked example.
-
-    Raises
-    ------
-    InputError
-        Before any file is written, if the folder has other contents, or the source has no displayed equation.
+    Raise InputError before any file is written, if the folder has other contents, or the source has no displayed equation.
     """
     again = (folder / "paper.toml").is_file()
     if again and source is None:

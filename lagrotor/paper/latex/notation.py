@@ -43,19 +43,10 @@ _EXCLUSIVE = (
 
 
 def declared_notation(table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
-    """Return the notation that an author declares in a table.
+    """Return the notation that a table {kind: names, separated by spaces} declares.
 
-    Parameters
-    ----------
-    table : Mapping[str, Any]
-        Kind → names of its symbols, separated by spaces, and `decimal_comma` → true or false.
-    where : str
-        The name of the file, for messages.
-
-    Raises
-    ------
-    InputError
-        For an unknown key, a value of the wrong type, and a symbol with two kinds that exclude each other.
+    Raise InputError, which names the file `where`, for an unknown key, a value of the wrong type, and a symbol of two kinds that
+    exclude each other.
     """
     keys = (*KINDS, "decimal_comma")
     if unknown := sorted(table.keys() - set(keys)):

@@ -348,15 +348,7 @@ def _one_line(text: str) -> str:
 def write_derivation(paper: Catalogue) -> tuple[Path, dict[str, str]]:
     """Write `derivations/s_system.py`, with a verdict for each equation of [system.derives] that can be decided.
 
-    Returns
-    -------
-    tuple of Path and dict
-        The script, and a map from the id of each equation left out to the reason.
-
-    Raises
-    ------
-    InputError
-        If the system cannot be read, or none of its equations can be decided.
+    Return the script, and {id of an equation left out: reason}. Raise InputError if none can be decided.
     """
     system, cells, refused = stated_system(paper), "", dict[str, str]()
     premises = ", premises=system.premises" if system.premises else ""

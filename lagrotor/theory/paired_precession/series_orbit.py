@@ -90,39 +90,10 @@ class PrecessionOrbit(Shown):
             raise DomainError("precession_orbit: a time is not finite")
         return axes_of(self.harmonics, phases)
 
-    def error_at(self, t: ArrayLike) -> Array:
-        """Return a bound of the error of an axis, including the phase error that has accumulated since t = 0.
-
-        Parameters
-        ----------
-        t : array_like
-            Times in s, any shape.
-
-        Returns
-        -------
-        ndarray
-            Bounds in units of R, of the same shape.
-        """
-        speed = np.linalg.norm(np.arange(len(self.harmonics)) @ np.abs(self.harmonics))  # a bound of |dr/dPhi|
-        return self.error + speed * self.frequency_error * np.abs(np.asarray(t, dtype=float))
-
     @property
     def momentum(self) -> float:
         """The momentum P about the joint line in kg m²/s."""
         return harmonic_momentum(self.harmonics, self.frequency, self.scene.inertias, self.scene.momenta[0])
-
-    @property
-    def momentum_error(self) -> float:
-        """A bound of the momentum's error in kg m²/s.
-
-        At Phi = 0 the axes are parallel in the exact orbit and in the series: G cancels, and P = −sum_i z_i (a y_i' + b y_j').
-        """
-        a, b = self.scene.inertias
-        r, slope = start_of(self.harmonics)
-        height, slopes = np.abs(r[:, 2]), np.abs(slope[:, 1])
-        of_axes = abs(self.frequency) * (height.sum() + slopes.sum() + 2 * self.error) * self.error
-        of_frequency = (height.max() + self.error) * (slopes.sum() + 2 * self.error) * self.frequency_error
-        return float((a + abs(b)) * (of_axes + of_frequency))
 
     @property
     def start(self) -> Scene:

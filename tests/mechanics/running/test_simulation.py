@@ -185,7 +185,7 @@ def test_crossings_are_found_where_the_solution_has_them(engine: str) -> None:
     assert len(both.t) == len(up.t) + len(down.t)
     assert np.abs(both.q - 0.5).max() < 1e-12
     assert len(run.crossings(c.q[0] - 2).t) == 0
-    assert run.poincare(c.q[0] - 2, (c.q[0], c.v[0])).shape == (0, 2)
+    assert run.crossings(c.q[0] - 2).q.shape == (0, 1)
 
 
 def test_a_run_is_saved_and_read_again_with_its_system(tmp_path: Path) -> None:
@@ -212,11 +212,11 @@ def test_a_run_is_saved_and_read_again_with_its_system(tmp_path: Path) -> None:
 def test_a_poincare_section_of_henon_and_heiles_lies_on_the_energy_surface() -> None:
     run = henon_heiles().simulate({}, (0, 0.1), (0.45, 0.1), np.linspace(0, 100, 1001), 1e-10)
     x, (y, y_v) = PLANE.q[0], (PLANE.q[1], PLANE.v[1])
-    points = run.poincare(x, (y, y_v))
-    assert len(points) > 10
-    kinetic = run.energy[0] - (points[:, 0] ** 2 / 2 - points[:, 0] ** 3 / 3) - points[:, 1] ** 2 / 2
-    assert (kinetic > 0).all()
     there = run.crossings(x, 1)
+    height, rate = there.evaluate(y), there.evaluate(y_v)
+    assert len(height) > 10
+    kinetic = run.energy[0] - (height**2 / 2 - height**3 / 3) - rate**2 / 2
+    assert (kinetic > 0).all()
     assert there.v[:, 0] ** 2 / 2 == pytest.approx(kinetic, abs=1e-8)
 
 
