@@ -100,7 +100,7 @@ def tree_of(system: Equations) -> Tree | None:
 
 
 def _rotors(system: Equations, remainder: sp.Expr) -> dict[sp.Symbol, sp.Expr] | None:
-    """Return the constant inertias of single speeds in an expression; None if it has another quadratic form in v."""
+    """Return {v: J} for an expression Σ ½ J v² + terms linear in v with constant J; None for any other quadratic form in v."""
     if not remainder.free_symbols & {*system.c.v}:
         return {}
     M = mass_matrix(remainder, system.c)

@@ -90,7 +90,11 @@ class Closure:
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """A machine: links, parents first, the field of gravity (3,), closures, and sentences on parts not read and on changes."""
+    """A machine as its file describes it.
+
+    Each link comes after its parent. `gravity` (3,) is the acceleration in m/s². `not_read` says in words which parts of the
+    file were not read, and `notes` which numbers and names were changed.
+    """
 
     name: str
     file: Path
