@@ -29,7 +29,7 @@ _DECIDED = 3000  # operations up to which a difference is decided to vanish; a l
 
 
 def parts_from_sympy(source: Any, q: Sequence[Any] = ()) -> dict[str, Any]:
-    """Return the fields of a `System` by name: `System.from_sympy`."""
+    """Return the arguments of a `System` by name: `System.from_sympy`."""
     from sympy.physics.mechanics import KanesMethod, LagrangesMethod, System, dynamicsymbols
 
     clock = dynamicsymbols._t
@@ -76,7 +76,7 @@ def _generalised_forces(loads: Sequence[Any], frame: Any, speeds: Sequence[sp.Ex
 
 
 def _of_speeds(kane: Any) -> dict[str, Any]:
-    """Return the fields of a `System` by name, from a KanesMethod whose velocities are linear in its speeds u."""
+    """Return the arguments of a `System` by name, from a KanesMethod whose velocities are linear in its speeds u."""
     from sympy.physics.mechanics import KanesMethod, dynamicsymbols
 
     frame, q, u, bodies = kane._inertial, kane.q, kane.u, kane.bodies

@@ -130,7 +130,7 @@ def _linear_states(scene: Scene, t: Array) -> Array:
 
 
 def _straightened(linear: LinearPair, start: Array, shock: Shock) -> Shock:
-    """Return the shock with its force in the frame of the pair, whose azimuth is that of the axis at the peak of the pulse."""
+    """Return the shock with its force in the frame of the pair. Its azimuth equals the azimuth of the axis at the peak."""
     at = linear.free(start[:3], start[3:], np.array([max(shock.at, 0.0)]))[0]
     angle = -(linear.upright @ at[:3])[shock.body]
     fx, fy, fz = shock.force

@@ -118,7 +118,7 @@ def joints(tree: Tree, keep: Stages) -> list[Joint]:
 
 
 def _with_motion(joint: Joint, parent: Joint | None, ground: Small, keep: Stages) -> Joint:
-    """Return the joint with its motion, from that of its parent, which has the index p.
+    """Return the joint with its motion, which is found from the motion of its parent, the joint with the index p.
 
     u and ḋ are the joint's velocities: α = α_p + ω_p × u + u̇,  a = a_p + K_p d + 2 ω_p × ḋ + d̈.
     """

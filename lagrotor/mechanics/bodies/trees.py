@@ -164,7 +164,7 @@ class _Walk:
         return place
 
     def step(self, frame: MovingFrame, parent: int, d: sp.Matrix, R: sp.Matrix) -> Place:
-        """Return the place of a frame from that of its parent, (link, d, R); a step that moves adds a new link."""
+        """Return the place (link, d, R) of a frame, found from the place of its parent; a step that moves adds a new link."""
         is_shift = frame.axis is None and frame.amount.cols == 1
         moving = frame.amount.free_symbols & self.moving
         if not moving:

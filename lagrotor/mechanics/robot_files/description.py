@@ -106,7 +106,7 @@ class Description:
 
 
 class _Names:
-    """The names of the symbols: letters, digits and _ alone, each once, also with _dot and _ddot."""
+    """The names given to symbols: letters, digits and _ only. No two are equal, not even with _dot or _ddot added."""
 
     def __init__(self) -> None:
         self.taken = {"t", "g"}

@@ -70,7 +70,7 @@ class ContactMode(NamedTuple):
     ended: int = 0
 
     def with_value(self, component: Literal["signs", "closed"], i: int, value: int) -> "ContactMode":
-        """Return the mode with another value of one component."""
+        """Return the mode with one component replaced by `value`."""
         values: list[int] = [*getattr(self, component)]
         values[i] = int(value)
         changed: dict[str, Any] = {component: tuple(values)}

@@ -337,7 +337,7 @@ def _surface(system: Equations, w: sp.Expr, s: sp.Symbol) -> Surface:
 
 
 def short(e: sp.Expr) -> str:
-    """Return an expression for a message of one line; of a long one its beginning."""
+    """Return an expression as text for a message of one line; only the beginning if the expression is long."""
     text = str(e)
     return text if len(text) <= _LONGEST else text[:_LONGEST] + " …"
 

@@ -93,7 +93,7 @@ def _numbers(name: str, values: Any) -> dict[str, Array]:
 
 
 def _of_parts(name: str, values: Any) -> dict[str, Array]:
-    """Return the numbers of a column of rotors, bars or shocks, or of one for all scenes. None is no bar or no shock."""
+    """Return the numbers of a column of rotors, bars or shocks, or of one value for all scenes. None means no bar or no shock."""
     kind, alone = _PARTS[name], values is None or isinstance(values, Rotor | Link | Shock)
     parts = [values] if alone else list(values) if hasattr(values, "__iter__") else [values]
     if not all(isinstance(part, kind) or (part is None and name != "rotor") for part in parts):
