@@ -64,7 +64,7 @@ def parts_from_sympy(source: Any, q: Sequence[Any] = ()) -> dict[str, Any]:
 
 
 def _generalised_forces(loads: Sequence[Any], frame: Any, speeds: Sequence[sp.Expr]) -> list[sp.Expr]:
-    """Return F·∂v/∂u of forces at points plus T·∂ω/∂u of torques on frames or bodies."""
+    """Return the generalised forces: Σ F·∂v/∂u over forces at points plus Σ T·∂ω/∂u over torques on frames or bodies."""
     from sympy.physics.mechanics import Point
 
     Q = [sp.S.Zero] * len(speeds)

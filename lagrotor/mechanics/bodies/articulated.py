@@ -163,9 +163,10 @@ Column = list[sp.Expr]
 
 @dataclass(frozen=True)
 class Factor:
-    """The elimination of the coordinate with this number, which moves the link along the column s, shape (6, 1).
+    """The elimination of one joint coordinate, coordinate `number`, as in the articulated-body algorithm.
 
-    E is U/D, shape (6, 1). x has (τ − s·(N, F))/D for each column τ of joint forces.
+    The coordinate moves the link along `s`, shape (6, 1). With the articulated inertia J, U = J s, and D is s·U plus the
+    inertia of the coordinate's rotor. `E` is U/D, and `x` has (τ − s·(N, F))/D for each column τ of joint forces.
     """
 
     number: int

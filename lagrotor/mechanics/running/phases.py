@@ -103,7 +103,8 @@ class Phase:
     system : Equations
         The smooth equations, with sticking surfaces and closed gaps as constraints.
     conditions : tuple
-        Tuples (kind, index, expression). The phase lasts until an expression reaches zero; all but an event's are positive.
+        Tuples (kind, index, expression). The phase lasts until one of the expressions reaches zero. During the phase all of
+        them are positive, except the expressions of events, which may have either sign.
     """
 
     system: Equations
