@@ -449,7 +449,7 @@ assert zigzag(0.9, spins=1.0, gravity=9.81).piece(4).critical_spin() == np.inf
 Remark(
     "Zigzags under weight",
     "With equal spins, massless bars, and rotors of 1 kg and 1 m the least axial momentum for stability is "
-    f"{', '.join(stands_from)}. A zigzag of 8 rotors is unstable at any spin.",
+    f"{', '.join(stands_from)}. A zigzag of 8 rotors is unstable at every spin.",
 )
 
 # %% [markdown]
