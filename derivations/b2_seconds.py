@@ -42,7 +42,7 @@ def slower_than(error):
     """A sentence with the tools that are faster than the fast extra at the same error; empty if no tool is."""
     others = [name for name in at_error[error] if name not in METHODS and not name.startswith("best of ")]
     ratios = {name: recorded_multiple(found, "best of fast", error, name) for name in others}
-    faster = [f"{ratio:.2g} times that of {name}" for name, ratio in ratios.items() if ratio and ratio > 1]
+    faster = [f"{ratio:.2g} times the time of {name}" for name, ratio in ratios.items() if ratio and ratio > 1]
     return f"For an error of {error} m the time of the fast extra is {', '.join(faster)}." if faster else ""
 
 

@@ -57,10 +57,10 @@ tables = [
         "Mechanisms: processor times of the tools",
         MECHANISM_HEAD,
         tuple(mechanism_rows(found.measured)),
-        f"The processor times are medians on {where} ({versions}). For lagrotor and sympy's methods, ready and rhs "
-        "are in the table of "
-        "the comparison with sympy. The run has a length of one second, and its error is the largest at eleven times. The "
-        "integrator is the fastest of scipy's DOP853, LSODA and the tool's integrator. symbrim is not included: it has "
+        f"The processor times are medians on {where} ({versions}). For lagrotor and sympy's methods, the columns ready and "
+        "rhs are in the table that compares them with sympy. The run has a length of one second, and its error "
+        "is the largest at eleven times. The integrator is the fastest of scipy's DOP853, LSODA and the tool's integrator. "
+        "symbrim is not included: it has "
         f"bicycles, riders and a rolling disc, but neither of these mechanisms. {age}",
     ),
     Table(

@@ -449,7 +449,7 @@ assert zigzag(0.9, spins=1.0, gravity=9.81).piece(4).critical_spin() == np.inf
 Remark(
     "Zigzags under weight",
     "With equal spins, massless bars, and rotors of 1 kg and 1 m the least axial momentum for stability is "
-    f"{', '.join(stands_from)}. A zigzag of 8 rotors is unstable at any spin.",
+    f"{', '.join(stands_from)}. A zigzag of 8 rotors is unstable at every spin.",
 )
 
 # %% [markdown]
@@ -493,9 +493,10 @@ two = zigzag(pi / 2, spins=(12.0, -7.0)).dispersion(np.linspace(0, 2 * pi, 61))
 assert np.allclose(two.gaps, [(0, 5 / 2 / Rotor().J)], rtol=1e-9)
 Remark(
     "Long rows are stable if every second rotor does not spin",
-    f"With all spins equal, a staircase of {', '.join(map(str, least_spins))} rotors is stable under load from a spin of "
-    f"{', '.join(f'{all_:.2f}' for all_, _ in least_spins.values())} √(a|κ|)/I_3 on. If every second rotor does not spin, the "
-    f"others need {max(half for _, half in least_spins.values()):.2f} √(a|κ|)/I_3 at each of these lengths.",
+    f"With all spins equal, a staircase of {', '.join(map(str, least_spins))} rotors is stable under load if the spin is at "
+    f"least {', '.join(f'{all_:.2f}' for all_, _ in least_spins.values())} √(a|κ|)/I_3, in this order. If every "
+    f"second rotor does not spin, the others need {max(half for _, half in least_spins.values()):.2f} √(a|κ|)/I_3 at each "
+    "of these lengths.",
 )
 
 # %% [markdown]

@@ -229,7 +229,6 @@ Remark(
 # %%
 Remark(
     "Order of the linear responses",
-    "On the exact pair the largest error of the linear response of X over a period after an impulse P on tip 1 is "
-    "proportional to "
-    f"P to the power {orders['x']:.2f} for an impulse along x and {orders['y']:.2f} for one across the bar.",
+    "The linear response of X is compared with the exact pair over a period after an impulse P on tip 1. Its largest error is "
+    f"proportional to P^{orders['x']:.2f} if the impulse is along x, and to P^{orders['y']:.2f} if it is across the bar.",
 )

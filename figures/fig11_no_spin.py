@@ -44,8 +44,8 @@ _energy, _exact, _x, _y, _z, _off = measure().values()
 CAPTION = (
     f"Run of the spring-link model with the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} kg/s (n = 20, "
     "omega_s = 10 rad/s in 4.01, as in figure 10), a bar of 1 kg and 1 kg m², no spins, and the shock 50 exp(−(50 (t − 2))²) N "
-    f"along x on the tip of rotor 1 (b). The pair gains {_energy:.3f} J (exact model: {_exact:.3f} J) (a), and y stays "
-    "zero (c). The dashed "
+    f"along x on the tip of rotor 1 (b). The energy (a) rises by {_energy:.3f} J; the exact "
+    f"model gives {_exact:.3f} J. The coordinate y (c) stays zero. The dashed "
     f"curves are the exact model, which differs by {1000 * _off:.1f} mm at {IN_LINE:g} s. Soon after, the bar and "
     "both axes lie in "
     "one line, where the motion with a rigid bar is not determined. The paper's z is 0.5 m less."

@@ -143,7 +143,7 @@ class Printed(Shown):
 
 
 class ShownInOneLine(Printed):
-    """A result of which calls return several: its `repr` is one line, so that a tuple of them can be read."""
+    """The base of results that come in tuples. The `repr` of each is one line, so that the tuple can be read."""
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f'{name} = {says}' for name, says in self.summary().items())})"

@@ -378,7 +378,9 @@ def _check_cut(node: sp.Expr, inner: _Series, small: sp.Symbol) -> None:
                 f"{node} is singular at {small} = 0, and its branch depends on the sign of {small}: declare it positive"
             )
     if not (off_cut or on_line):
-        raise NotExactError(f"{node} may lie on a branch cut: its argument starts at {u0} and leaves the real line")
+        raise NotExactError(
+            f"{node} may lie on a branch cut: its argument is {u0} at {small} = 0 and may be complex beside it"
+        )
 
 
 def _is_real(node: sp.Expr) -> bool:

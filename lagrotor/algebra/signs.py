@@ -50,7 +50,7 @@ class Region:
 
 
 def region(relations: Iterable[Any]) -> Region:
-    """Return the region in which all given inequalities hold, or conjunctions of them; raise InputError for anything else."""
+    """Return the region in which all relations hold. Raises InputError if one is no inequality or conjunction of inequalities."""
     inequalities: list[tuple[sp.Expr, bool]] = []
     for relation in relations:
         if relation is True or relation is sp.true:

@@ -176,7 +176,7 @@ def recorded_speed() -> dict[str, Any]:
 
 
 def recorded_multiple(record: dict[str, Any], name: str, error: str, of: str) -> float | None:
-    """Return the time of method `name` divided by that of method `of`, both at an error; None if one does not reach the error."""
+    """Return the time of method `name` divided by the time of method `of`, both at an error; None if one never reaches it."""
     seconds = record["at_error"][error]
     return None if None in (seconds[name], seconds[of]) else float(seconds[name] / seconds[of])
 

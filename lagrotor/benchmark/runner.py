@@ -115,7 +115,7 @@ class Reference:
 def reference(scene: Scene, t_eval: Array) -> Reference:
     """Compute a scene with the minimal model (six states) and the spheres model (twelve), both at the tolerance 1e-13.
 
-    The result holds the tips of the minimal model, and the largest distance of the two. For comparison,
+    The result holds the tips by the minimal model, and the largest distance between the tips by the two models. For comparison,
     tests/benchmark/reference.json has 10 s of the displaced pair to thirty digits, by extrapolation. Raises LagrotorError if
     the pair does not move, or if the two models differ by more than _FLOOR.
     """

@@ -33,8 +33,8 @@ class Throughput:
 
 
 def displaced_family(n: int) -> list[Scene]:
-    """Return n pairs with opposite spins. Their initial states are 0.25 to 1.5 times that of the paired precession with r₀ =
-    0.204."""
+    """Return n pairs with opposite spins. Their initial states are 0.25 to 1.5 times the start of the paired precession with
+    r₀ = 0.204."""
     scene = Scene((10.0, -10.0))
     return scenes_from_states(scene, np.linspace(0.25, 1.5, n)[:, None] * MODEL.start(exact_orbit(scene, 0.204).scene))
 

@@ -39,7 +39,7 @@ def add_shock(parser: argparse.ArgumentParser) -> None:
 
 
 def scene_from_options(options: argparse.Namespace) -> Scene:
-    """Return the scene that the options state, or that of the scene file. Raises InputError if both are given."""
+    """Return the scene that the options state or the scene file contains. Raises InputError if both are given."""
     shock = _shock(options) if "shock" in options else None  # pair and rate take none
     link = {
         name: value for name in ("length", "mass", "inertia") if (value := vars(options)[f"link_{name}"]) is not None

@@ -47,7 +47,7 @@ _FAST = 1000  # the factor on random velocities at which friction must have incr
 
 
 class PlacedForces(tuple[sp.Expr, ...]):
-    """The generalised forces of a system, and the loads on frames that they come from; `loads` is None if those are unknown."""
+    """The generalised forces of a system, and `loads`, the loads on frames that cause them; None if these are unknown."""
 
     loads: tuple[Any, ...] | None = ()
 

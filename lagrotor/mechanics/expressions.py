@@ -44,7 +44,7 @@ def expression(where: str, value: Any) -> sp.Expr:
 
 
 def no_coordinate(where: str, expressions: Any, names: Iterable[sp.Symbol]) -> None:
-    """Raise InputError if a function has the name of a coordinate: θ(t) beside θ would be another quantity."""
+    """Raise InputError if a function has the name of a coordinate: θ(t) and θ would be two different quantities."""
     moving = {*map(str, names)}
     if wrong := [f for f in unknown_functions(expressions) if str(f.func) in moving]:
         raise InputError(f"{where} contains {wrong[0]}: {_PLAIN}")

@@ -29,7 +29,7 @@ _DECIDED = 3000  # operations up to which a difference is decided to vanish; a l
 
 
 def parts_from_sympy(source: Any, q: Sequence[Any] = ()) -> dict[str, Any]:
-    """Return the fields of a `System` by name: `System.from_sympy`."""
+    """Return the arguments of a `System` by name: `System.from_sympy`."""
     from sympy.physics.mechanics import KanesMethod, LagrangesMethod, System, dynamicsymbols
 
     clock = dynamicsymbols._t
@@ -64,7 +64,7 @@ def parts_from_sympy(source: Any, q: Sequence[Any] = ()) -> dict[str, Any]:
 
 
 def _generalised_forces(loads: Sequence[Any], frame: Any, speeds: Sequence[sp.Expr]) -> list[sp.Expr]:
-    """Return F·∂v/∂u of forces at points plus T·∂ω/∂u of torques on frames or bodies."""
+    """Return the generalised forces: Σ F·∂v/∂u over forces at points plus Σ T·∂ω/∂u over torques on frames or bodies."""
     from sympy.physics.mechanics import Point
 
     Q = [sp.S.Zero] * len(speeds)
@@ -76,7 +76,7 @@ def _generalised_forces(loads: Sequence[Any], frame: Any, speeds: Sequence[sp.Ex
 
 
 def _of_speeds(kane: Any) -> dict[str, Any]:
-    """Return the fields of a `System` by name, from a KanesMethod whose velocities are linear in its speeds u."""
+    """Return the arguments of a `System` by name, from a KanesMethod whose velocities are linear in its speeds u."""
     from sympy.physics.mechanics import KanesMethod, dynamicsymbols
 
     frame, q, u, bodies = kane._inertial, kane.q, kane.u, kane.bodies

@@ -216,7 +216,7 @@ def formulas(system: Equations, most: int = _MOST_OPERATIONS) -> dict[str, list[
 
 
 def _in_own_velocities(system: Equations) -> list[sp.Expr]:
-    """Return the Boltzmann–Hamel equations. A rate u' that is the acceleration of a coordinate has the symbol of that."""
+    """Return the Boltzmann–Hamel equations. If a speed u is the velocity of a coordinate, its rate has the symbol q''."""
     c = system.c
     named = {rate: c.a[c.v.index(u)] for u, rate in zip(system.speeds, system.speed_rates, strict=True) if u in c.v}
     return [e.xreplace(named) for e in system.hamel]

@@ -121,8 +121,8 @@ class System(Equations):
     def from_urdf(path: "str | Path", symbols: "Symbols" = "inertia", base: str = "fixed") -> "RobotSystem":
         """Return the system of a robot in a URDF file.
 
-        Decimals become exact rationals, and an angle such as 1.5707963 becomes π/2; `notes` of the result says where. Joint
-        damping becomes dissipation, and a mimic joint a constraint. Meshes, limits and dry friction are listed in
+        Decimals become exact rationals, and an angle such as 1.5707963 becomes π/2; the result's `notes` list these angles.
+        Joint damping becomes dissipation, and a mimic joint becomes a constraint. Meshes, limits and dry friction are listed in
         `not_read`. Gravity is 9.81 m/s² along −z.
 
         Parameters
@@ -130,15 +130,15 @@ class System(Equations):
         path : str or Path
             The URDF file.
         symbols : {"inertia", "all", "none"}, default 'inertia'
-            "inertia": masses, centres, inertias and g are symbols, and `values` has their numbers. "all": lengths and
-            dampings, too. "none": numbers alone. A zero stays a zero.
+            "inertia": masses, centres of mass, inertias and g are symbols, and the result's `values` has their numbers.
+            "all": lengths and dampings are symbols, too. "none": everything is a number. A zero of the file stays zero.
         base : {"fixed", "floating"}, default 'fixed'
             Whether the root link is fixed to the ground or free.
 
         Returns
         -------
         RobotSystem
-            The system, with the coordinates of the joints by the file's names.
+            The system; its coordinates have the names of the file's joints.
 
         Raises
         ------
@@ -165,22 +165,23 @@ class System(Equations):
     def from_mjcf(path: "str | Path", symbols: "Symbols" = "inertia") -> "RobotSystem":
         """Return the system of a machine in an MJCF file of MuJoCo.
 
-        Inertias without <inertial> are those of the geoms. Damping, springs and armatures of joints are read, and equality
-        constraints hold exactly. Meshes, contacts, actuators and limits are listed in `not_read`. Files that are included
-        must lie in the folder of the file.
+        A body without <inertial> has the inertia of its geoms. Damping, springs and armatures of joints are read, and equality
+        constraints hold exactly. Meshes, contacts, actuators and limits are listed in `not_read`. Included files must
+        lie in the folder of the file.
 
         Parameters
         ----------
         path : str or Path
             The MJCF file.
         symbols : {"inertia", "all", "none"}, default 'inertia'
-            "inertia": masses, centres, inertias and g are symbols, and `values` has their numbers. "all": lengths,
-            dampings, stiffnesses and armatures, too. "none": numbers alone. A zero stays a zero.
+            "inertia": masses, centres of mass, inertias and g are symbols, and the result's `values` has their numbers.
+            "all": lengths, dampings, stiffnesses and armatures are symbols, too. "none": everything is a number. A zero of
+            the file stays zero.
 
         Returns
         -------
         RobotSystem
-            The system, with the coordinates of the joints by the file's names.
+            The system; its coordinates have the names of the file's joints.
 
         Raises
         ------
@@ -432,20 +433,22 @@ class System(Equations):
     def rest(self, near: "Mapping[Any, Any] | Equilibrium", values: "Values") -> Equilibrium:
         """Find the equilibrium to which Newton's method leads from a configuration, also in closed loops.
 
-        The steps stay in the neighbourhood, and the last ones go to rounding, so that `linearise` takes the result. It may be
-        unstable. If equilibria are not isolated, it is one of them.
+        The steps are limited, so that the equilibrium is near the configuration; it may be unstable. Newton's method stops at
+        the rounding error, so that `linearise` accepts the result. If equilibria are not isolated, the result is one of them.
 
         Parameters
         ----------
         near : mapping or Equilibrium
-            {coordinate or state: number} for those that forces and constraints contain; it is first moved onto the constraints.
+            {coordinate or state: number}. Coordinates on which the motion does not depend may be left out. The
+            configuration is first moved onto the constraints.
         values : mapping
             {symbol or name: number} for all parameters.
 
         Returns
         -------
         Equilibrium
-            The coordinates and first-order states, the largest rate that is left, and the stability to first order.
+            The coordinates and first-order states, the largest acceleration or rate that remains there, and the stability of
+            the linearised system.
 
         Raises
         ------
@@ -893,11 +896,11 @@ class System(Equations):
         return joint_forces.joint_names(self)
 
     def joint_force(self, name: str, axes: str = "ground") -> joint_forces.JointForce:
-        """Return the force and the torque in a joint as expressions; `run.reactions` has them in numbers.
+        """Return the force and the torque in a joint as expressions; `run.reactions` has the numbers along a run.
 
-        The frame before the joint exerts them on the frame after it, at the origin of that frame. They contain the drive, the
-        spring and the friction of the joint. `forces` act in the joints of their coordinates, except what `Frame.force` and
-        `Frame.torque` return, which acts on that frame.
+        The frame before the joint exerts them on the frame after it, at the origin of the second frame. They contain the
+        drive, the spring and the friction of the joint. A plain entry of `forces` acts in the joint of its coordinate. A load
+        made by `Frame.force` or `Frame.torque` acts on its frame.
 
         Parameters
         ----------
@@ -909,13 +912,14 @@ class System(Equations):
         Returns
         -------
         JointForce
-            Columns `force` in N and `torque` in N m in q, v, a, t and `multipliers`. Substitute `accelerations` for a.
+            The columns `force` in N and `torque` in N m, expressions in q, v, a, t and `multipliers`. To have them along the
+            motion, replace a by `accelerations`.
 
         Raises
         ------
         InputError
-            If no joint has this name, if L has no bodies, or if a term does not say on which bodies it acts: a potential or
-            friction of several joints, or a constraint that no method of frames built.
+            If no joint has this name, if L has no bodies, or if it is unknown on which bodies a term acts. Such terms are a
+            potential or friction that contains coordinates of several joints, and a constraint that no method of `Frame` made.
 
         Examples
         --------
@@ -933,10 +937,10 @@ class System(Equations):
     def inverse_dynamics(
         self, q: Any = None, v: Any = None, a: Any = None, values: "Values | None" = None, t: float = 0.0
     ) -> Any:
-        """Return the forces that must act besides those of the system to give it accelerations: τ = M a + h − Q.
+        """Return the forces that must act, besides the system's own, to give it the accelerations a: τ = M a + h − Q.
 
-        Under constraints τ includes their forces Gᵀ λ. In a system with quasi-velocities, v and a stand for these and for
-        their rates, and τ is the force for them: about the axes of a ball joint, the torque.
+        Under constraints τ includes the constraint forces Gᵀ λ. In a system with quasi-velocities, v and a are the
+        quasi-velocities and their rates, and τ is the force conjugate to them. For a ball joint τ is the torque.
 
         Parameters
         ----------
@@ -971,15 +975,16 @@ class System(Equations):
         return joint_programs.inverse_dynamics(self, q, v, a, values, t)
 
     def regressor(self) -> tuple[sp.Matrix, sp.Matrix]:
-        """Return Y(q, v, a) and π: the bodies need the generalised forces Y π, linear in their inertial parameters π.
+        """Return Y(q, v, a) and π: the generalised forces that move the bodies are Y π, linear in the inertial parameters π.
 
         Each body has ten parameters: m, the first moments m c, and the inertias xx, xy, xz, yy, yz, zz about the origin of its
-        frame, in the axes of that frame. `inverse_dynamics` is Y π without applied forces, friction and other terms of L.
+        frame, in the axes of that frame. `inverse_dynamics` equals Y π if there are no applied forces, no
+        friction and no other terms in L.
 
         Returns
         -------
         tuple of Matrix
-            Y, shape (n, 10 N) for N bodies, and π in the symbols of the system, (10 N, 1).
+            Y, shape (n, 10 N) for N bodies, and π in the symbols of the system, shape (10 N, 1).
 
         Raises
         ------
@@ -1002,19 +1007,20 @@ class System(Equations):
         return inertial_parameters.regressor(self)
 
     def base_parameters(self) -> inertial_parameters.BaseParameters:
-        """Return the combinations of masses, first moments and inertias that motions can determine, exactly.
+        """Return the combinations of masses, first moments and inertias that forces and motions can determine, exactly.
 
-        The energies are evaluated at random rational states, and their dependence is found by exact elimination.
+        The energies are evaluated at random rational states. Exact elimination finds which parameters act only in combination.
 
         Returns
         -------
         BaseParameters
-            The combinations, and the changes of parameters that no motion can tell.
+            The combinations, and the changes of parameters that leave the forces of every motion the same.
 
         Raises
         ------
         InputError
-            If joints move with time, constraints act, or L has other energies than those of bodies in one field.
+            If a joint's place depends explicitly on time, if there are constraints, or if L has energies other than
+            `body.kinetic` and `body.potential` in one field.
 
         Examples
         --------
@@ -1030,7 +1036,7 @@ class System(Equations):
         return inertial_parameters.base_parameters(self)
 
     def coriolis_matrix(self) -> sp.Matrix:
-        """Return C(q, v) of the Christoffel symbols, with which M' − 2 C is skew: M a + C v + ∂V/∂q = Q.
+        """Return the matrix C(q, v) of M a + C v + ∂V/∂q = Q, made of the Christoffel symbols; M' − 2 C is skew.
 
         It belongs to the velocities v, as `mass_matrix` does.
 
@@ -1085,10 +1091,10 @@ class System(Equations):
     def export(self, language: "LanguageName", folder: "str | Path", name: str = "system") -> "tuple[Path, ...]":
         """Write the equations as functions of another language, for other tools.
 
-        The functions are rhs, mass_matrix, forcing, inverse_dynamics, energy, joint_forces and jacobian, the last by exact
-        differentiation. They take the time t, the parameters p and the state x, which is (q, u) and then the first-order
-        states. `name.json` has the order of states, parameters and outputs, with their units. A warning gives the reason
-        if joint_forces is left out.
+        The functions are rhs, mass_matrix, forcing, inverse_dynamics, energy, joint_forces and jacobian. The jacobian is
+        exact. The arguments are the time t, the parameters p and the state x, which is (q, u), then the first-order states.
+        `name.json` has the order of states, parameters and outputs, with their units. A warning gives the reason if the
+        function joint_forces cannot be written.
 
         Parameters
         ----------
@@ -1107,8 +1113,8 @@ class System(Equations):
         Raises
         ------
         InputError
-            If dry friction acts, a force contains a reaction, or a function has no expression; if a file of that name is
-            not from lagrotor or belongs to another system.
+            If dry friction acts, a force contains a reaction, or an unknown function has no expression. If the folder has a
+            file of that name that lagrotor did not write or that belongs to another system.
 
         Examples
         --------

@@ -454,7 +454,9 @@ class Oscillation(Shown):
         returns = run.crossings(v, direction=1 if run.v[1, 0] > 0 else -1)
         turns = returns.t[returns.t > 0.4 * period]
         if not len(turns):
-            raise SingularError(f"error: the motion from {q} = {float(start):.6g} does not return within 1.6 periods")
+            raise SingularError(
+                f"error: the motion from {q} = {float(start):.6g} does not return within 1.6 periods: try a smaller amplitude"
+            )
         return float(abs(omega / (2 * sp.pi / turns[0]) - 1))
 
 

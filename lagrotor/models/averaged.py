@@ -67,7 +67,7 @@ class Forms(NamedTuple):
 
 
 class _Sums(NamedTuple):
-    """k polynomials in d variables with the same m terms: exponents (m, d), and one column of coefficients (m, k) for each."""
+    """k polynomials in d variables with the same m monomials: exponents (m, d), and coefficients (m, k), one column for each."""
 
     exponents: Any
     coefficients: Any

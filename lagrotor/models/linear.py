@@ -130,7 +130,7 @@ def _linear_states(scene: Scene, t: Array) -> Array:
 
 
 def _straightened(linear: LinearPair, start: Array, shock: Shock) -> Shock:
-    """Return the shock with its force in the frame of the pair, whose azimuth is that of the axis at the peak of the pulse."""
+    """Return the shock with its force in the frame of the pair. Its azimuth equals the azimuth of the axis at the peak."""
     at = linear.free(start[:3], start[3:], np.array([max(shock.at, 0.0)]))[0]
     angle = -(linear.upright @ at[:3])[shock.body]
     fx, fy, fz = shock.force
@@ -235,8 +235,9 @@ def shock_response_error(scene: Scene, t_end: float) -> float:
 def _spread(scene: Scene, angle: float, duration: float) -> float:
     """Return the factor by which a rotation through `angle` (rad) about the joint line in `duration` (s) increases an error.
 
-    The factor is (1 + angle/(2k)) exp(growth duration). The first part comes from the coupling G U' = −(G nu/k) Delta to a
-    uniform rotation at nu. The growth is the growth rate of opposite spins that rotate so.
+    The factor is (1 + angle/(2k)) exp(growth duration). The parenthesis comes from the coupling G U' = −(G nu/k) Delta to a
+    uniform rotation at the rate nu. `growth` is the growth rate of a perturbation of a pair with opposite spins that rotates at
+    this rate.
     """
     assert scene.link is not None
     if angle < _FAR or duration <= 0:

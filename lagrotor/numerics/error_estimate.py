@@ -295,7 +295,7 @@ class _Course:
 
 def comparison_times(times: Array, watch: Array = _NONE) -> Array:
     """Return the times at which two runs are compared: the requested times (n,), the times of `watch` between them, and
-    samples, more of them near the start. A sample beside a requested time is left out."""
+    samples, more of them near the start. A sample next to a requested time is left out."""
     begin, end = times[0], times[-1]
     samples = np.linspace(begin, end, _SAMPLES)[1:-1]
     after = np.searchsorted(times, samples)

@@ -234,7 +234,7 @@ class Claim(Printed):
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure; its `kind` is diagram, simulated, analytical or both, its `equations` are the ids of those shown."""
+    """A figure. Its `kind` is diagram, simulated, analytical or both; `equations` are the ids of the equations it shows."""
 
     number: int
     kind: str

@@ -364,7 +364,7 @@ def opened(folder: Path, scripts_in: Path | None = None) -> Paper:
 
 
 def audit_of(paper: Paper, verdicts: Iterable[Verdict]) -> Audit:
-    """Return the audit of a paper with the given verdicts; equations without a verdict are its `waiting` ones."""
+    """Return the audit of a paper with the given verdicts; equations without a verdict are listed in `waiting`."""
     in_order = tuple(with_reach(paper, verdicts))
     judged = {verdict.id for verdict in in_order}
     return Audit(in_order, tuple(i for i in paper.equations if i not in judged))

@@ -125,7 +125,9 @@ def dimensions(printed: Any, derived: Any, glossary: Glossary, values: Mapping[A
         if under(others).answer != "inconsistent":
             numbers = others
     values_text = ", ".join(f"{_letter_text(str(s))} = {readable(str(values[s]))}" for s in numbers)
-    return Dimensions("in units", f"with {values_text} numbers stand for quantities: {strict.says}")
+    return Dimensions(
+        "in units", f"with {values_text} written as numbers, the units of the sides differ: {strict.says}"
+    )
 
 
 def _compared(printed: Any, derived: Any, reader: "_Reader") -> Dimensions:

@@ -26,7 +26,7 @@ AGREES: tuple[Answer, ...] = ("holds", "holds-if", "holds-to-order", "proved")
 
 @dataclass(frozen=True)
 class Series:
-    """A derived side that is a series, of which only the terms through small**order are known.
+    """A derived side that is a series. Its terms are known only up to the power small**order.
 
     Attributes
     ----------

@@ -160,10 +160,9 @@ def shock_script(scene: Scene, letter: str) -> tuple[Callable[[], Any], Callable
         f"Run of the spring-link model with the paper's step of {STEP:g} s, S = {STIFFNESS:g} N/m and D = {DAMPING:g} "
         "kg/s (n = 20, "
         "omega_s = 10 rad/s in 4.01, as in figure 10), a bar of 1 kg and 1 kg m², spins of 10 and −10 rad/s, and the shock "
-        f"50 exp(−(50 (t − 2))²) N along {letter} on the tip of rotor 1 (b). The energy (a) rises from 100 to {energy:.3f} J "
-        "(exact model: "
-        f"{exact:.3f} J). In 10 s the centre of rotor 1 (c) moves over a range of {x:.2f} m in x, {y:.2f} m in y and "
-        f"{z:.2f} m in z. The "
+        f"50 exp(−(50 (t − 2))²) N along {letter} on the tip of rotor 1 (b). The energy (a) rises from 100 to {energy:.3f} J; "
+        f"the exact model gives {exact:.3f} J. In 10 s the centre of rotor 1 (c) moves over a range of {x:.2f} m in x, "
+        f"{y:.2f} m in y and {z:.2f} m in z. The "
         f"dashed curves are the exact model, which differs by {1000 * distance:.1f} mm at 10 s. The paper's z is 0.5 m less."
     )
     return data, measure, caption, lambda: shock_figure(data(), letter)

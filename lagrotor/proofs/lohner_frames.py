@@ -269,7 +269,7 @@ def size_of(rows: Sequence[Balls]) -> float:
 
 
 def flow_data(about: Any, motion: Motion, start: Start, steps: Sequence[LohnerStep], bits: int) -> Certificate:
-    """Return the entries that the certificates of all motions have in common."""
+    """Return the certificate of a motion as data: its subject, start and steps. Each theorem adds its own entries."""
     initial = {"middle": balls_data(start.middle), "spread": balls_data(start.spread)}
     data = {"version": VERSION, "bits": bits, "about": about, "motion": motion.data(), "start": initial}
     return data | {"steps": [step.data() for step in steps]}

@@ -110,7 +110,7 @@ def _start_phrase(certificate: Certificate) -> str:
     phrases = [_value_phrase(*row) for row in (nonzero if few else states)]
     phrases += [f"all {'others' if nonzero else 'states'} 0"] * few
     parameters = _where_phrase([_value_phrase(*row) for row in values[size:]])
-    return f" This is of {_subject(certificate)}, from t = 0 with {', '.join(phrases)}{parameters}."
+    return f" This holds for {_subject(certificate)}, from t = 0 with {', '.join(phrases)}{parameters}."
 
 
 def _where_phrase(parameters: Sequence[str]) -> str:
@@ -121,7 +121,7 @@ def _subject_phrase(certificate: Certificate) -> str:
     fixed = certificate["motion"]["parameters"]
     names = certificate["motion"]["arguments"][-len(fixed) :] if fixed else []
     parameters = [_value_phrase(name, *_read_fractions(x)) for name, x in zip(names, fixed, strict=True)]
-    return f" This is of {_subject(certificate)}{_where_phrase(parameters)}."
+    return f" This holds for {_subject(certificate)}{_where_phrase(parameters)}."
 
 
 def _subject(certificate: Certificate) -> str:
@@ -255,7 +255,7 @@ def _keeps_energy(certificate: Certificate) -> bool:
 
 
 def _ones_phrase(ones: int, kind: str) -> str:
-    """Return the sentence that `ones` multipliers are known to be 1, on which some kinds of orbits rest; else ""."""
+    """Return the sentence that `ones` multipliers are 1 if the orbit's kind was proved with that knowledge; else ""."""
     needed = ones and kind in ("elliptic", "hyperbolic", "parabolic")
     return f" That {ones} of its multipliers are 1 is known of the system." if needed else ""
 

@@ -148,7 +148,7 @@ def opening(report: Report) -> list[tuple[str, str]]:
 
 
 def balance(report: Report) -> str:
-    """Return the sentences that count the equations of each verdict, and the refuted ones with a correction."""
+    """Return the sentences that count the equations with each verdict, and the refuted equations with a correction."""
     if not report.verdicts:
         return f"None of {len(report.waiting)} equations is judged yet."
     counts = report.counts

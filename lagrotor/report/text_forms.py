@@ -205,7 +205,7 @@ def _equation(verdict: Verdict, report: Report) -> Iterator[Block]:
 def _facts(listed: Iterable[Fact]) -> Iterator[Block]:
     for fact in listed:
         letters = [letter for letter in fact.formulas if letter.is_Symbol]
-        yield [Bold(f"{fact.label}."), *fact.texts, Links(fact.ids), *letters]
+        yield [Bold(f"{fact.label}:"), *fact.texts, Links(fact.ids), *letters]
         yield from (Display(formula) for formula in fact.formulas if not formula.is_Symbol)
         yield from map(Display, fact.sources)
 

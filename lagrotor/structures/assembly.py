@@ -56,7 +56,7 @@ class Brace(Printed):
 
 
 def _alike(values: Any) -> str:
-    """Return values as text, equal ones once, and nothing for zeros."""
+    """Return the values as text: equal values once, and empty text if all are zero."""
     texts = [text_of(value) for value in (values if isinstance(values, Sequence) else (values,))]
     if set(texts) == {"0"}:
         return ""

@@ -50,7 +50,10 @@ def response(
     try:
         q = np.linalg.solve(pencil, np.broadcast_to(right[:, None], (len(w), len(right), 1)))[..., 0]
     except np.linalg.LinAlgError:
-        raise InputError("response: one of the rates is a resonance without damping: give others, or damping") from None
+        raise InputError(
+            "response: one of the rates is the rate of an undamped mode, so the response is infinite: give other rates, "
+            "or damping"
+        ) from None
     return np.asarray((q @ linear.basis.T).reshape(-1, N, 2) * c.R[:, None])
 
 

@@ -221,7 +221,7 @@ class SmallMotion:
 
     @property
     def drifts(self) -> bool:
-        """True if some displacement continues at constant speed: zero is a double root of one motion."""
+        """True if some displacement grows at constant speed, that is, if one motion has the double root zero."""
         return bool(self.dof and self._neutral[2])
 
 

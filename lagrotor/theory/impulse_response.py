@@ -68,7 +68,7 @@ def impulse_matrices() -> ImpulseMatrices:
 
 
 def _in_plane_order(linear: LinearSystem) -> LinearSystem:
-    """Transform the linear pair to the coordinates (x, y_1, y_2), the rows x_1, y_1, y_2 of its basis."""
+    """Transform the linear system of the pair to the coordinates (x, y_1, y_2). They are the rows x_1, y_1, y_2 of its basis."""
     rows = [linear.basis.row(i) for i in (0, 1, 4)]
     change = sp.Matrix.vstack(*rows).inv()
     matrices = (change.T * m * change for m in (linear.mass, linear.gyroscopic, linear.stiffness))

@@ -80,8 +80,8 @@ def frequency_shift(scene: Scene) -> float:
 def azimuth_drift(scene: Scene) -> float:
     """Return the rate alpha'/r0⁴ at which an orbit about upright rotates about the joint line, and so does not close.
 
-    The law is of leading order, for r0² well below |G_1 + G_2|/|G_1 − G_2|. Orbits of opposite spins with any rate of rotation
-    are the paired precession.
+    The law is of leading order and valid if r0² is well below |G_1 + G_2|/|G_1 − G_2|. It gives 0 for opposite spins, where
+    the paired precession may rotate at any rate.
 
     Parameters
     ----------

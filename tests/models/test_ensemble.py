@@ -77,7 +77,7 @@ def test_what_nothing_finishes_is_nan(monkeypatch):
     assert [MODELS[m] for m in found.models] == ["none", "minimal"]
     assert np.isnan(found.axes[0]).all()
     assert np.isfinite(found.axes[1]).all()
-    with pytest.raises(InputError, match=r"the run of scene 0 reached no time: .*it stops"):
+    with pytest.raises(InputError, match=r"the run of scene 0 ended before the first time of t: .*it stops"):
         found.trajectory(0)
 
 

@@ -107,11 +107,13 @@ def test_a_letter_without_a_unit_is_named() -> None:
 
 def test_numbers_stand_for_quantities_where_a_premise_says_so() -> None:
     found = of(1 + l / 2, l, l=1, m=1)
-    assert (found.answer, found.says.split(" numbers")[0]) == ("in units", "with l = 1")
+    assert (found.answer, found.says.split(" written as numbers")[0]) == ("in units", "with l = 1")
     assert of(1 + l / 2, l, m=1).answer == "inconsistent"
     assert of(1 + l / 2, l, l=0).answer == "inconsistent", "nothing is measured in units of zero"
     both = of(sp.Integer(3), l**3 * m**2, l=1, m=20)
-    assert both.answer == "in units" and both.says.startswith("with m = 20, l = 1 numbers stand for quantities")
+    assert both.answer == "in units" and both.says.startswith(
+        "with m = 20, l = 1 written as numbers, the units of the sides differ"
+    )
 
 
 def test_the_verdict_does_not_rest_on_them_but_shows_them() -> None:

@@ -52,12 +52,12 @@ SAYS = {
     "with theta = 1, theta_dot = 0, where ell = 1, g = 9.81, k = 0.1, m = 0.7.",
     "constraint, time and forces": "forces (y*y_dot, -x_dot*y + exp(-t)), x**2/2 + y**2/2 - 1/2 = 0, from t = 0 with x = 0, y",
     "rolling and friction": "dissipation x_dot**2/10, -x*x_dot + y_dot = 0, from t = 0 with",
-    "rates in words": "This is of the motion x′ = v, v′ = -k*sin(x), from t = 0 with x = 1, v = 0, where k = 2.",
+    "rates in words": "This holds for the motion x′ = v, v′ = -k*sin(x), from t = 0 with x = 1, v = 0, where k = 2.",
     "a scene that is pushed": "the pair of spins 10, -10 rad/s with a bar of 1 m, 1 kg, 0.5 kg m² and rotors of 1 m, 1 kg, I1 "
     "= 1, I3 = 1 kg m², pushed at rotor 2 by (50, 0, 1) N exp(−((t − 0.02)/0.05)²), from t = 0 with all states 0.",
     "a structure": "the structure of rotors at (0, 0), (1, 0), (1, 1) m of 1 m, 1 kg, I1 = 1, I3 = 1 kg m²; bars 0–1 of 1 m, 1–2 "
     "of 1 m, each of 0.5 kg, 0.1 kg m²; spins 10, -10, 7 rad/s; gravity 9.81 m/s², from t = 0 with x_0 = 0.0999",
-    "an equilibrium": "is definite there and conserved. This is of the system with L = ell**2*m*theta_dot**2/2",
+    "an equilibrium": "is definite there and conserved. This holds for the system with L = ell**2*m*theta_dot**2/2",
 }
 
 

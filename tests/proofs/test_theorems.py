@@ -226,7 +226,7 @@ def test_a_name_is_defined_once_and_what_is_written_is_what_is_computed() -> Non
 
 def test_a_theorem_names_its_start_and_its_parameters() -> None:
     assert verified(SWING).endswith(
-        " This is of the system with L = theta_dot**2/2 + cos(theta), from t = 0 with theta = 1, theta_dot = 0."
+        " This holds for the system with L = theta_dot**2/2 + cos(theta), from t = 0 with theta = 1, theta_dot = 0."
     )
     wide = enclose(THREE_BODIES, {MU: ("0.01", "0.011")}, ["0.5", (0.8, 0.81)], [0, sp.Rational(1, 3)], 0.1)
     words = verified(wide)

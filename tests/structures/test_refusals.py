@@ -132,7 +132,7 @@ REFUSED = [
     (lambda: TWO.response(nan, (1, 0), 0), "finite"),
     (lambda: TWO.response([[1.0, 2.0]], (1, 0), 0), "row of numbers"),
     (lambda: TWO.response(1.0, "a", 0), "force"),
-    (lambda: TWO.response(0.0, (1, 0), 0), "resonance without damping"),
+    (lambda: TWO.response(0.0, (1, 0), 0), "the rate of an undamped mode"),
     (lambda: TWO.response(1.0), "give a force"),
     (lambda: TWO.response(1.0, (1, 0), 3), "no rotor"),
     (lambda: TWO.response(1.0, (1, 0, 0), 0), "shape"),

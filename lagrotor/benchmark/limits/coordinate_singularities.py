@@ -135,7 +135,7 @@ def fold_difference(tol: float) -> float:
 
 
 def projection_limits(quick: bool) -> list[Limit]:
-    """Return the limit of the printed projection Omegaᵀ Omega / |Omega|² (3.16): |Omega|² underflows for a tiny Omega."""
+    """Return the |Omega| in rad/s below which the printed projection (3.16), Omegaᵀ Omega / |Omega|², underflows to 0/0."""
     return [
         Limit(
             "the printed projection at tiny angular velocity",

@@ -118,7 +118,7 @@ def joints(tree: Tree, keep: Stages) -> list[Joint]:
 
 
 def _with_motion(joint: Joint, parent: Joint | None, ground: Small, keep: Stages) -> Joint:
-    """Return the joint with its motion, from that of its parent, which has the index p.
+    """Return the joint with its motion, which is found from the motion of its parent, the joint with the index p.
 
     u and ḋ are the joint's velocities: α = α_p + ω_p × u + u̇,  a = a_p + K_p d + 2 ω_p × ḋ + d̈.
     """
@@ -163,9 +163,10 @@ Column = list[sp.Expr]
 
 @dataclass(frozen=True)
 class Factor:
-    """The elimination of the coordinate with this number, which moves the link along the column s, shape (6, 1).
+    """The elimination of one joint coordinate, coordinate `number`, as in the articulated-body algorithm.
 
-    E is U/D, shape (6, 1). x has (τ − s·(N, F))/D for each column τ of joint forces.
+    The coordinate moves the link along `s`, shape (6, 1). With the articulated inertia J, U = J s, and D is s·U plus the
+    inertia of the coordinate's rotor. `E` is U/D, and `x` has (τ − s·(N, F))/D for each column τ of joint forces.
     """
 
     number: int

@@ -48,7 +48,7 @@ _LARGEST = 30  # numerator and denominator of a random number
 
 @dataclass(frozen=True, eq=False)
 class BaseParameters:
-    """The combinations of masses, first moments and inertias that motions of a mechanism can determine.
+    """The combinations of masses, first moments and inertias that a measurement of forces and motion can determine.
 
     Body number k of a system, from 1, has the parameters m_k, the first moments mx_k, my_k, mz_k, and the inertias Ixx_k, …,
     Izz_k about the origin of its frame, along the axes of that frame.
@@ -64,8 +64,9 @@ class BaseParameters:
     values : Matrix
         The base parameters in the symbols of the system, shape (r, 1).
     hidden : tuple of Expr
-        Changes of the parameters that no motion can tell: each a combination of names, for example m_2 − l*mx_1 −
-        l**2*Izz_1. The parameters change in proportion to their coefficients.
+        Changes of the parameters that leave the forces of every motion the same. Each is a combination of `names`: add ε times
+        the coefficient of a name to that parameter. m_2 − l*mx_1 − l**2*Izz_1 adds ε to m_2 and subtracts
+        ε l from mx_1 and ε l² from Izz_1.
     """
 
     names: tuple[sp.Symbol, ...]

@@ -266,7 +266,7 @@ class MovingFrame:
         return next(step for step in steps if step is frame)
 
     def _relative(self, frame: "MovingFrame") -> tuple[sp.Matrix, sp.Matrix, sp.Matrix, sp.Matrix]:
-        """Return the rotation, ω, the origin and its velocity relative to a frame, in the axes of that frame."""
+        """Return the rotation, ω, the origin and its velocity relative to another frame, along the axes of the other frame."""
         steps = self.to_the_ground
         R, spin, origin, drift = sp.eye(3), sp.zeros(3, 1), sp.zeros(3, 1), sp.zeros(3, 1)
         for step in reversed(steps[: steps.index(frame)]):

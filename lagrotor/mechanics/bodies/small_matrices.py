@@ -126,7 +126,7 @@ class Stages:
         return matrix.each(self)
 
     def symmetric(self, matrix: Small) -> Small:
-        """Return a symmetric matrix whose entries are replaced by stages, each stored once."""
+        """Store the upper triangle of a symmetric matrix as stages; return the matrix of their symbols."""
         n = len(matrix.rows)
         upper = {(i, j): self(matrix[i, j]) for i in range(n) for j in range(i, n)}
         return Small([[upper[min(i, j), max(i, j)] for j in range(n)] for i in range(n)])

@@ -100,7 +100,7 @@ def tree_of(system: Equations) -> Tree | None:
 
 
 def _rotors(system: Equations, remainder: sp.Expr) -> dict[sp.Symbol, sp.Expr] | None:
-    """Return the constant inertias of single speeds in an expression; None if it has another quadratic form in v."""
+    """Return {v: J} for an expression Σ ½ J v² + terms linear in v with constant J; None for any other quadratic form in v."""
     if not remainder.free_symbols & {*system.c.v}:
         return {}
     M = mass_matrix(remainder, system.c)
@@ -164,7 +164,7 @@ class _Walk:
         return place
 
     def step(self, frame: MovingFrame, parent: int, d: sp.Matrix, R: sp.Matrix) -> Place:
-        """Return the place of a frame from that of its parent, (link, d, R); a step that moves adds a new link."""
+        """Return the place (link, d, R) of a frame, found from the place of its parent; a step that moves adds a new link."""
         is_shift = frame.axis is None and frame.amount.cols == 1
         moving = frame.amount.free_symbols & self.moving
         if not moving:

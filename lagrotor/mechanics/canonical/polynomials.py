@@ -80,12 +80,12 @@ class Polynomial:
         return Polynomial(self.exponents, self.coefficients / divisor)
 
     def product(self, factor: Polynomial, order: int) -> Polynomial:
-        """Return the product through the degree `order`."""
+        """Return the product without its terms of degrees above `order`."""
         pairs = [(a, b) for d, a in self.parts.items() for e, b in factor.parts.items() if d + e <= order]
         return total([_product(a, b) for a, b in pairs] or [self.part(-1)])
 
     def power(self, n: int, order: int) -> Polynomial:
-        """Return the n-th power, n ≥ 1, through the degree `order`."""
+        """Return the n-th power, n ≥ 1, of the polynomial without its terms of degrees above `order`."""
         return reduce(lambda a, b: a.product(b, order), [self] * n)
 
     def derivative(self, k: int) -> Polynomial:
@@ -96,7 +96,7 @@ class Polynomial:
         return Polynomial(lower, by.coefficients * by.exponents[:, k].astype(by.coefficients.dtype))
 
     def substitute(self, values: Sequence[Polynomial], order: int, first: int = 0) -> Polynomial:
-        """Substitute x_k = values[k] through the degree `order`, by Horner's rule in one variable after another from `first`."""
+        """Substitute x_k = values[k] for k ≥ `first` by Horner's rule, without terms of degrees above `order`."""
         if first == self.variables:
             constants = np.zeros((len(self.coefficients), values[0].variables), dtype=np.int64)
             return Polynomial(constants, self.coefficients)
@@ -165,7 +165,7 @@ def _collect(keys: NDArray[np.uint64], exponents: NDArray[np.int64], coefficient
 
 
 def inverse_matrix(m: Sequence[Sequence[Polynomial]], order: int) -> list[list[Polynomial]]:
-    """Return the inverse m₀⁻¹ − m₀⁻¹ (m − m₀) m₀⁻¹ + … of a square matrix of polynomials, through the degree `order`.
+    """Return the inverse m₀⁻¹ − m₀⁻¹ (m − m₀) m₀⁻¹ + … of a square matrix of polynomials, without degrees above `order`.
 
     The matrix m₀ of the constant terms must be regular.
     """
@@ -183,7 +183,7 @@ def inverse_matrix(m: Sequence[Sequence[Polynomial]], order: int) -> list[list[P
 
 
 def poisson_bracket(f: Polynomial, g: Polynomial, weights: Coefficients, order: int) -> Polynomial:
-    """Return {f, g} through the degree `order`; `weights`, shape (n,), are the brackets c_j of the canonical pairs."""
+    """Return {f, g} without degrees above `order`; `weights`, shape (n,), are the brackets c_j of the canonical pairs."""
     n = len(weights)
     summands = [f.part(-1)]
     for j in range(n):
@@ -194,7 +194,7 @@ def poisson_bracket(f: Polynomial, g: Polynomial, weights: Coefficients, order: 
 
 
 def lie_transform(f: Polynomial, g: Polynomial, weights: Coefficients, order: int) -> Polynomial:
-    """Return exp(L_g) f through the degree `order`: f after the flow of g in unit time. g has no terms below degree 3."""
+    """Return f after the flow of g in unit time, exp(L_g) f, without degrees above `order`. g has no terms below degree 3."""
     result = term = f
     k = 0
     while len(term.coefficients):

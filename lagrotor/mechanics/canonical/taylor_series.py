@@ -47,7 +47,7 @@ class LocalSeries:
     cache: dict[sp.Expr, Polynomial] = field(default_factory=dict)
 
     def of(self, e: sp.Expr) -> Polynomial:
-        """Return the Taylor polynomial of an expression, through the order."""
+        """Return the Taylor polynomial of an expression, of the degree `order`."""
         if e not in self.cache:
             self.cache[e] = self._expanded(e)
         return self.cache[e]
@@ -68,7 +68,9 @@ class LocalSeries:
             return self._power(e)
         if len(e.args) == 1 and not isinstance(e, _CORNERED):
             return self._composed(e.func(_Z), e.args[0])
-        raise DomainError(f"normal_form: {e} is not expanded: write it by analytic functions of one argument")
+        raise DomainError(
+            f"normal_form: {e} has no Taylor series that is known: write it with powers and analytic functions of one argument"
+        )
 
     def _power(self, e: sp.Expr) -> Polynomial:
         if e.exp.is_Integer and e.exp > 0:
@@ -122,7 +124,7 @@ class JetSpace:
         return int(self.exponents[-1].sum())
 
     def product(self, a: Array, b: Array) -> Array:
-        """Return the coefficients of a product through the degree."""
+        """Return the coefficients of a product of two series, without the powers above the degree."""
         return np.add.reduceat(a[self.first] * b[self.second], self.begins)
 
     def constant(self, value: float) -> TruncatedSeries:

@@ -90,7 +90,11 @@ class Closure:
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """A machine: links, parents first, the field of gravity (3,), closures, and sentences on parts not read and on changes."""
+    """A machine as its file describes it.
+
+    Each link comes after its parent. `gravity` (3,) is the acceleration in m/s². `not_read` says in words which parts of the
+    file were not read, and `notes` which numbers and names were changed.
+    """
 
     name: str
     file: Path
@@ -102,7 +106,7 @@ class Description:
 
 
 class _Names:
-    """The names of the symbols: letters, digits and _ alone, each once, also with _dot and _ddot."""
+    """The names given to symbols: letters, digits and _ only. No two are equal, not even with _dot or _ddot added."""
 
     def __init__(self) -> None:
         self.taken = {"t", "g"}

@@ -216,7 +216,7 @@ def _read_defaults(element: Element, defaults: dict[str, dict[str, dict[str, str
 
 
 def _read_body(body: Element, index: int, inherited: str, prefix: Pose, moving: bool, reading: _Reading) -> None:
-    """Read what is in a body, <worldbody> or <frame>; `index` is that of the body's link, and `prefix` the pose in it."""
+    """Read the elements in a <body>, <worldbody> or <frame>. `index` is the number of the link, and `prefix` the pose in it."""
     for element in body.check_children(_BODY):
         if element.tag in _REFUSED:
             raise element.refusal(

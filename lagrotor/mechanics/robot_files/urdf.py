@@ -180,7 +180,7 @@ def _mimic(joint: Element, joints: dict[str, Element]) -> Closure:
 
 
 def _not_read(robot: Element, unknown: list[Element]) -> tuple[str, ...]:
-    """Return what is left out, in words with numbers."""
+    """Say in words how many elements of each kind were not read."""
     counts = {
         "shapes (visual, collision)": sum(len(link.all("visual", "collision")) for link in robot.all("link")),
         "limits of joints": sum(len(joint.all("limit", "safety_controller")) for joint in robot.all("joint")),

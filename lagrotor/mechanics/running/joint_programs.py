@@ -73,7 +73,8 @@ def joint_forces_along(run: Any, axes: str) -> dict[str, JointForce]:
         raise InputError(f"reactions: the forces in joints are not determined: {run.redundancy.words}")
     if not run.switched.smooth and any(sum(run.switched.mode(state).closed) for state in run.states):
         raise InputError(
-            "reactions: a body rests on the gap of an Impact, which does not say on which bodies its force acts"
+            "reactions: the gap of an Impact is closed in this run, and an Impact does not say on which bodies its force "
+            "acts: end the run before the gap closes"
         )
 
     def input_of(e: sp.Expr) -> sp.Expr:

@@ -45,7 +45,7 @@ _TIGHTEST = 1e-9  # local error: an exponent has fewer digits
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MonodromyMatrix(Shown):
-    """The matrix Φ of one period, with its eigenvalues, the Floquet multipliers.
+    """The matrix Φ that maps small changes of the state to those one period later, and its eigenvalues, the Floquet multipliers.
 
     Attributes
     ----------

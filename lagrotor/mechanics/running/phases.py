@@ -70,7 +70,7 @@ class ContactMode(NamedTuple):
     ended: int = 0
 
     def with_value(self, component: Literal["signs", "closed"], i: int, value: int) -> "ContactMode":
-        """Return the mode with another value of one component."""
+        """Return the mode with one component replaced by `value`."""
         values: list[int] = [*getattr(self, component)]
         values[i] = int(value)
         changed: dict[str, Any] = {component: tuple(values)}
@@ -103,7 +103,8 @@ class Phase:
     system : Equations
         The smooth equations, with sticking surfaces and closed gaps as constraints.
     conditions : tuple
-        Tuples (kind, index, expression). The phase lasts until an expression reaches zero; all but an event's are positive.
+        Tuples (kind, index, expression). The phase lasts until one of the expressions reaches zero. During the phase all of
+        them are positive, except the expressions of events, which may have either sign.
     """
 
     system: Equations

@@ -81,25 +81,25 @@ class Event:
 class Impact:
     """An impact where a gap closes: the velocity of approach is reversed and multiplied by the coefficient of restitution.
 
-    Without a rebound the gap stays closed, as a constraint, while its reaction pushes.
+    If nothing rebounds, the gap stays closed, as a constraint, until its reaction would pull.
 
     Attributes
     ----------
     gap : Expr or Contact
-        An expression in q and t, which does not become negative, or the contact of a body, `body.rolls_on(surface, radius)`.
+        An expression in q and t that stays at least zero, or the contact of a body, `body.rolls_on(surface, radius)`.
     restitution : Expr, default 1
-        A number from 0 to 1 or a parameter.
+        The coefficient of restitution, a number from 0 to 1 or a parameter.
     friction : Expr, default 0
         The coefficient of Coulomb friction, in the impact and while the gap is closed. The gap must be a distance in m.
     slip : Expr or sequence of Expr, default ()
-        With friction, the sliding velocity at the contact in m/s, affine in v; in space its two components along
-        perpendicular axes of the tangential plane. A contact has it, an expression does not.
+        The sliding velocity at the contact in m/s, affine in v: in space two components along perpendicular axes of the
+        tangential plane. It is needed if there is friction and `gap` is an expression; a contact knows its sliding velocity.
 
     Notes
     -----
-    Restitution is Newton's; the tangential impulse obeys Coulomb's law with the sliding velocity after the impact (Moreau).
-    An impact in which both laws would increase the energy ends the run (Kane's paradox). Other contacts that are closed take up
-    normal impulses, without friction.
+    The normal velocity obeys Newton's law of restitution. The tangential impulse obeys Coulomb's law with the sliding velocity
+    after the impact (Moreau). If both laws together would increase the energy, the run ends at the impact (Kane's paradox).
+    Other contacts that are closed take up a normal impulse but no tangential one.
 
     Examples
     --------
@@ -337,7 +337,7 @@ def _surface(system: Equations, w: sp.Expr, s: sp.Symbol) -> Surface:
 
 
 def short(e: sp.Expr) -> str:
-    """Return an expression for a message of one line; of a long one its beginning."""
+    """Return an expression as text for a message of one line; only the beginning if the expression is long."""
     text = str(e)
     return text if len(text) <= _LONGEST else text[:_LONGEST] + " …"
 

@@ -13,7 +13,11 @@ ORDER = [2, 5, 0, 3, 1, 4]
 
 
 def program(massive: bool, body: int) -> Program:
-    """Derive the program (theta_1, phi_1, psi_1, theta_2, phi_2, psi_2, rates; a, b, k, I_3[, F]) → twelve derivatives."""
+    """Derive the right-hand side of the model `euler` as a program.
+
+    Its arguments are the angles theta_1, phi_1, psi_1, theta_2, phi_2, psi_2, their rates, the parameters a, b, k, I_3 and, if
+    `body` is 1 or 2, the force F on that tip. It returns the twelve time derivatives.
+    """
     system = pair_with_bar()
     lagrangian = system.L if massive else system.L.subs(b, 0)
     mass, G = mass_matrix(lagrangian, PAIR), system.rows

@@ -42,7 +42,7 @@ class Ensemble(Shown):
         The number of evaluations of each run, (n,).
     models : Array
         Indices into MODELS, (n,). "spheres" ran scenes without a bar or near a singular position. "none" means that
-        the run reached no time.
+        the run ended before the first time.
     endings : Sequence of Ending
         The reason for which each run ended.
     """
@@ -117,7 +117,7 @@ class Ensemble(Shown):
         """
         n = int(np.isfinite(self.errors[i]).sum())
         if not n:
-            raise InputError(f"trajectory: the run of scene {i} reached no time: {self.endings[i]}")
+            raise InputError(f"trajectory: the run of scene {i} ended before the first time of t: {self.endings[i]}")
         scene, errors, name = self.scenes[i], self.errors[i, :n], MODELS[self.models[i]]
         return Trajectory(
             scene=scene, model=name, why="one of an ensemble", t=self.t[:n], axes=self.axes[i, :, :n], rates=self.rates[i, :, :n],

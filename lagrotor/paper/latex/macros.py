@@ -232,7 +232,7 @@ class Expander(TokenStream):
             self.doubt = self.doubt or "a part of the source is skipped"
 
     def skip(self, ends: tuple[str, ...], condition: Token, passed: list[Token] | None = None) -> str:
-        r"""Skip the tokens of a branch up to one of `ends` (\else, \fi) at its level; return the text of that token.
+        r"""Skip the tokens of a branch up to one of `ends` (\else, \fi) at its level; return the one it found.
 
         The skipped tokens are appended to `passed`. Return "" with a fault if the end is missing.
         """

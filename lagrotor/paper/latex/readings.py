@@ -30,7 +30,7 @@ class Print:
 
 
 def paper_notation(formulas: Iterable[str], table: Mapping[str, Any], where: str = "paper.toml") -> Notation:
-    """Return the kinds of a paper's symbols: those declared in `table`, and those that its formulas suggest for others.
+    """Return the kind of each symbol of a paper: the kind declared in `table`, otherwise the kind that the formulas suggest.
 
     `table` is [notation] in paper.toml; `where` names this file in messages.
     """

@@ -81,7 +81,7 @@ def _changes(node: Node) -> Iterator[tuple[Node, str]]:
 
 
 def _powers(node: Node) -> tuple[Node, Fraction, tuple[Fraction | int, ...]]:
-    """Return the base and the exponent of a node, and the numbers that may be added to this exponent."""
+    """Return the base and the exponent of a node, and the errors that are tried: numbers to be added to this exponent."""
     if isinstance(node, Call) and node.name == "power" and (power := rational_value(node.args[1])) is not None:
         return node.args[0], power, (1, -1, 2, -2)
     if isinstance(node, Call) and node.name == "sqrt":

@@ -65,7 +65,7 @@ def pair_formulas() -> dict[str, sp.Expr]:
 
 @dataclass(frozen=True)
 class PairComparison:
-    """The formulas beside the run over one turn of the paired precession.
+    """The formulas compared with the run over one turn of the paired precession.
 
     Attributes
     ----------

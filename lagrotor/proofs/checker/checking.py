@@ -62,7 +62,7 @@ def check(certificate: Any) -> str:
     >>> from lagrotor.proofs import enclose
     >>> c = coordinates("x")
     >>> check(enclose(System(c, (c.v[0] ** 2 - c.q[0] ** 2) / 2), q0=[1], v0=[0], t=1, tol=1e-10).certificate)
-    'At t = 1.00000000000000: x in [0.5403023...], x_dot in [-0.8414709...]. This is of the system with L = ...'
+    'At t = 1.00000000000000: x in [0.5403023...], x_dot in [-0.8414709...]. This holds for the system with L = ...'
     """
     try:
         certificate = plain(certificate)

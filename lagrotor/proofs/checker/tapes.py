@@ -33,7 +33,7 @@ def is_place(x: Any, end: int) -> bool:
 
 
 def is_name(x: Any) -> bool:
-    """Return True if x is one printable word without punctuation that a sentence uses."""
+    """Return True if x is one printable word without the punctuation of a sentence, such as commas and colons."""
     return type(x) is str and x.isprintable() and _NAME.fullmatch(x) is not None
 
 

@@ -215,7 +215,7 @@ def certified_line(proposition: Proposition) -> CertifiedLine:
 
 
 def _theorems(p: Proposition) -> Theorems:
-    """Return the names of the theorems of one line, and their text. Raises NotExactError if there are none."""
+    """Return the names of the theorems about one line of a verdict, and their text. Raises NotExactError if there are none."""
     if p.verdict not in ("holds", "holds-if", "holds-to-order", "refuted"):
         raise NotExactError(f"{p.verdict} is no exact verdict")
     if isinstance(p.printed, sp.MatrixBase) != isinstance(p.derived, sp.MatrixBase):

@@ -56,7 +56,7 @@ class Terms:
             self.add(symbol)
 
     def add(self, symbol: Any) -> str:
-        """Give a symbol a name, its own if Coq allows it, and return the name."""
+        """Give a symbol a name in Coq, if possible the symbol's name, and return it."""
         called = _plain(symbol)
         name = called if _WORD.fullmatch(called) else "x_" + re.sub(r"\W", "_", called, flags=re.ASCII)
         while name in _RESERVED or PROOF_NAMES.fullmatch(name) or name in self.names.values():

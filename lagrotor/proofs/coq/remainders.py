@@ -89,7 +89,9 @@ class _Near:
     ) -> None:
         """Expand a root about the earlier root or number whose square agrees with the radicand to the highest order."""
         if not at_zero.is_Rational or at_zero == 0:
-            raise NotExactError(f"{self.meaning[root]} has no rational value where {self.small} is zero")
+            raise NotExactError(
+                f"{self.meaning[root]} has no nonzero rational value at {self.small} = 0, which a certificate needs"
+            )
         symbol, bases = sp.Dummy("w"), [(at_zero, at_zero**2), *earlier]
         gaps = [(y, sp.expand(square - base_square)) for y, base_square in bases]
         base, gap = max(gaps, key=lambda row: self.least(row[1]))

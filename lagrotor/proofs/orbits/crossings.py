@@ -287,7 +287,7 @@ def no_crossing(
     >>> c = coordinates("theta")
     >>> pendulum = System(c, c.v[0] ** 2 / 2 + sp.cos(c.q[0]))
     >>> no_crossing(pendulum, q0=[1], v0=[0], event=c.q[0] - 2, t_end=2, tol=1e-10).theorem
-    'theta - 2 does not pass zero from t = 0 to 2 s. This is of the system with L = ...'
+    'theta - 2 does not pass zero from t = 0 to 2 s. This holds for the system with L = ...'
     """
     accuracy, where = accuracy_of(tol, "no_crossing"), "no_crossing"
     with precision(accuracy.bits, accuracy.terms):

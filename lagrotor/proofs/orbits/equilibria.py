@@ -171,7 +171,9 @@ def locate(forces: Tape, middle: Balls, parameters: Sequence[Ball]) -> tuple[Bal
         image = krawczyk(value, arb_mat([row[:n] for row in rows]), A, w)
         if inside(image, w):
             return middle, image, A
-    raise NotProved(f"equilibrium: Newton's method comes within {size:.1g}, but Krawczyk's test does not close there")
+    raise NotProved(
+        f"equilibrium: Newton's method comes within {size:.1g}, but Krawczyk's test proves no equilibrium there"
+    )
 
 
 def _energy_hessian(field: Field, system: Equations) -> Tape:

@@ -145,7 +145,7 @@ def _leaf(child: Element, text: str, previous: Element | None) -> None:
 
 
 def _raise_prime(child: Element) -> None:
-    """Keep a prime from being raised twice, and set a power of an accented letter as high as that of a plain one."""
+    """Keep a prime from being raised twice, and set a power of an accented letter as high as a power of a plain letter."""
     if child.tag == "msup" and (child[1].text or "x") in _PRIMES:
         child.tag, child[1].attrib = "mrow", {"form": "postfix", "lspace": "0", "rspace": "0"}
     elif child[0].tag == "mover":

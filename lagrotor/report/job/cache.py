@@ -82,7 +82,7 @@ def picture_from_json(data: Mapping[str, Any], folder: Path) -> Picture:
 
 
 class StoredFormula(sp.Expr):  # type: ignore[misc]
-    """An expression of a table of which only the LaTeX is stored, its argument."""
+    """An expression in a table. Only its LaTeX is stored, as the argument."""
 
     def _latex(self, printer: Any, exp: Any = None) -> str:
         return str(self.args[0].name)

@@ -67,7 +67,7 @@ _WIDEST = 2_000
 
 
 def equation_entry(verdict: Verdict, report: Report) -> str:
-    """Return the HTML entry of an equation: as printed beside as derived, the facts about it, and its LaTeX source."""
+    """Return the HTML entry of an equation: its printed and derived form side by side, facts about it, and its LaTeX source."""
     entry, statement = report.paper.equation(verdict.id), verdict.statement
     printed = typeset(entry.latex)
     derived = (

@@ -191,7 +191,7 @@ SAME_RATE = "the precession rate is unchanged by the correction"
 
 @dataclass(frozen=True)
 class Ansatz:
-    """The case of C15: spins (rad/s), the bar of the theory, and the ratio of the transverse moments of inertia of rotor 1."""
+    """The scene that tests claim C15: spins in rad/s, the bar, and the ratio of rotor 1's transverse moments of inertia."""
 
     spins: Spins = OPPOSITE
     bar: Link = MASSLESS
