@@ -69,8 +69,15 @@ _REWRITTEN: dict[type, Callable[..., sp.Expr]] = {
     sp.sec: lambda x: 1 / sp.cos(x),
     sp.csc: lambda x: 1 / sp.sin(x),
     sp.cot: lambda x: 1 / sp.tan(x),
+    sp.acot: lambda x: sp.atan(1 / x),
+    sp.asec: lambda x: sp.acos(1 / x),
+    sp.acsc: lambda x: sp.asin(1 / x),
+    sp.acoth: lambda x: sp.atanh(1 / x),
+    sp.asech: lambda x: sp.acosh(1 / x),
+    sp.acsch: lambda x: sp.asinh(1 / x),
     sp.Heaviside: lambda x, at_zero: (1 + sp.sign(x)) / 2,
     sp.DiracDelta: lambda x: sp.S.Zero,  # the slope of a sign beside its jump
+    sp.Subs: lambda slope, *_: sp.S.Zero if slope.args[0].func in (sp.floor, sp.ceiling) else slope,
 }
 
 # Keywords of C, of C++ with what compilers define, of Julia, of MATLAB and Octave; then names in the files.

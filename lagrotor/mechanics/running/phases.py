@@ -507,11 +507,10 @@ def _first(
             rounding = not begun and s < _FRESH * upper and event is None and conditions(np.array([2 * s]))[k, 0] > 0
             if s > start and direction in (0, way) and not rounding:
                 hits.append(Hit(polish(conditions, int(k), float(s), lower, upper), kind, i))
-    if not begun and not hits:  # seek a condition that is false from the start on
-        ends = conditions(np.array([10 * start, upper]))
-        scale = np.abs(ends).max(1)
+    if not begun and not hits:  # seek a condition that is false from the start on, although rounding may hide it at first
+        early, late = conditions(np.array([10 * start, upper])).T
         for k, (kind, i, _) in enumerate(phase.conditions):
-            if kind != "event" and (ends[k] < -_NOISE * scale[k]).all():
+            if kind != "event" and late[k] < -max(_NOISE * abs(early[k]), noise[k]) and early[k] <= noise[k]:
                 return Hit(0.0, kind, i), hidden
     return min(hits, default=None), hidden
 
@@ -616,6 +615,8 @@ def _coulomb_impulse(D: Array, change: Array, row: int, tangents: slice, mu: flo
     base, coupling = inner @ change[:first], inner @ D[:first, first:]
     S, s = D[first:, first:] - D[first:, :first] @ coupling, D[first:, :first] @ base - change[first:]
     length, push = np.linalg.norm(S, 2), np.zeros(len(change) - first)
+    if length <= _NOISE * np.linalg.norm(D[first:, first:], 2):  # what else is closed determines the sliding velocity
+        return np.concatenate([base, push])
     for _ in range(_SWEEPS):
         pressure = mu * max(base[row] - coupling[row] @ push, 0.0)
         wanted = push - (s + S @ push) / length

@@ -405,3 +405,22 @@ def test_contacts_that_hold_the_same_velocity_end_the_run_in_words() -> None:
     with pytest.warns(LagrotorWarning, match="hold the same velocities, and their friction is not determined"):
         run = rod.simulate({}, (0, 1, 0.4), (1, 0, 0), np.linspace(0, 3, 31), 1e-7, events=events)
     assert np.abs(run.q[-1, 1:]).max() < 1e-9 and run.energy[-1] == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize("height", [0, 1, 1000])
+@pytest.mark.parametrize("rough", [0, 0.3])
+def test_a_disc_let_go_on_an_incline_at_any_height_does_not_fall_through_it(height: float, rough: float) -> None:
+    """The gap y − height starts at zero, where the rounding of y hides how it closes. Rolling takes a third of g sin α."""
+    L = FALLING.lagrangian.subs({k_I: 0.5, DISC.q[1]: 0}) - 10 * np.cos(0.5) * DISC.q[1] + 10 * np.sin(0.5) * DISC.q[0]
+    floor = Impact(DISC.q[1] - height, 0.5, rough, DISC.v[0] + DISC.v[2] if rough else ())
+    run = System(DISC, L).simulate({}, (0, height, 0), (0, 0, 0), (0, 1, 2), 1e-9, events=floor)
+    ahead = 20 * np.sin(0.5) * (2 / 3 if rough else 1)
+    np.testing.assert_allclose(run.q[-1, :2], (ahead, height), atol=1e-9)
+    assert run.error < 1e-9
+
+
+def test_a_block_on_a_floor_meets_a_rough_wall_along_which_it_cannot_move() -> None:
+    """From 6 by μ g = 2 to 4 at the wall x = 5, back with half of it, and at rest 1 m from the wall."""
+    floor, wall = Impact(PLANE.q[1], 0, 0.2, A), Impact(5 - PLANE.q[0], 0.5, 0.2, B)
+    run = System(PLANE, SLIDING - 10 * PLANE.q[1]).simulate({}, (0, 0), (6, 0), (0, 1, 2, 4), 1e-9, events=(floor, wall))
+    np.testing.assert_allclose(run.q, [(0, 0), (5, 0), (4, 0), (4, 0)], atol=1e-9)
