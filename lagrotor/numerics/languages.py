@@ -77,7 +77,6 @@ _REWRITTEN: dict[type, Callable[..., sp.Expr]] = {
     sp.acsch: lambda x: sp.asinh(1 / x),
     sp.Heaviside: lambda x, at_zero: (1 + sp.sign(x)) / 2,
     sp.DiracDelta: lambda x: sp.S.Zero,  # the slope of a sign beside its jump
-    sp.Subs: lambda slope, *_: sp.S.Zero if slope.args[0].func in (sp.floor, sp.ceiling) else slope,
 }
 
 # Keywords of C, of C++ with what compilers define, of Julia, of MATLAB and Octave; then names in the files.
@@ -198,6 +197,10 @@ class _Writer:
             return self.text(form(*e.args))
         if e.func in (sp.Max, sp.Min) and len(e.args) > 2:
             return self.text(e.func(e.func(*e.args[:2], evaluate=False), *e.args[2:], evaluate=False))
+        if isinstance(e, sp.Derivative | sp.Subs):
+            raise InputError(
+                "export: the derivative of a step, as of floor(x), has no code: write the case that applies"
+            )
         if e.func.__name__ not in self.language.functions:
             raise InputError(f"export: {e} has no code in the other language: write it with elementary functions")
         arguments = ", ".join(self.text(x) for x in e.args)

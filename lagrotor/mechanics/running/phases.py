@@ -507,7 +507,9 @@ def _first(
             rounding = not begun and s < _FRESH * upper and event is None and conditions(np.array([2 * s]))[k, 0] > 0
             if s > start and direction in (0, way) and not rounding:
                 hits.append(Hit(polish(conditions, int(k), float(s), lower, upper), kind, i))
-    if not begun and not hits:  # seek a condition that is false from the start on, although rounding may hide it at first
+    if (
+        not begun and not hits
+    ):  # seek a condition that is false from the start on, although rounding may hide it at first
         early, late = conditions(np.array([10 * start, upper])).T
         for k, (kind, i, _) in enumerate(phase.conditions):
             if kind != "event" and late[k] < -max(_NOISE * abs(early[k]), noise[k]) and early[k] <= noise[k]:
@@ -637,7 +639,10 @@ def _sliding(h: Switched, at: Moment, i: int, local: float, duration: float) -> 
     speed, size = h.slide(i, at)
     if speed >= 2 * local * size > 0:
         return at.y, local * size, False
-    mode = at.mode.with_value("signs", i, 0)
+    mode = at.mode
+    for k, other in enumerate(h.surfaces):  # other friction that begins to slide from rest has no direction yet, either
+        if k == i or (other.metric is not None and mode.signs[k] and h.acts(k, mode) and h.slide(k, at)[0] == 0):
+            mode = mode.with_value("signs", k, 0)
     system, count = h.phase(mode).system, len(s.slips)
     held = slice(*(len(system.multipliers) - np.array([count, 0]) - _after(h, mode, i)))
     moment = at._replace(mode=mode)
@@ -741,6 +746,9 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
             break
         expressions, moment = [e for *_, e in reactions], at._replace(mode=mode)
         _check_held(h, moment)
+        for i, s in enumerate(h.surfaces):
+            if s.metric is not None and mode.signs[i] and h.acts(i, mode):
+                moment = moment._replace(y=_sliding(h, moment, i, _NOISE, 1.0)[0])
         values = h.evaluate(phase.system, expressions, moment)
         worst = int(np.argmin(values))
         size = np.abs(values).max() if len(values) > 1 else 0.0

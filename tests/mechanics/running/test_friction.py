@@ -422,5 +422,20 @@ def test_a_disc_let_go_on_an_incline_at_any_height_does_not_fall_through_it(heig
 def test_a_block_on_a_floor_meets_a_rough_wall_along_which_it_cannot_move() -> None:
     """From 6 by μ g = 2 to 4 at the wall x = 5, back with half of it, and at rest 1 m from the wall."""
     floor, wall = Impact(PLANE.q[1], 0, 0.2, A), Impact(5 - PLANE.q[0], 0.5, 0.2, B)
-    run = System(PLANE, SLIDING - 10 * PLANE.q[1]).simulate({}, (0, 0), (6, 0), (0, 1, 2, 4), 1e-9, events=(floor, wall))
+    run = System(PLANE, SLIDING - 10 * PLANE.q[1]).simulate(
+        {}, (0, 0), (6, 0), (0, 1, 2, 4), 1e-9, events=(floor, wall)
+    )
     np.testing.assert_allclose(run.q, [(0, 0), (5, 0), (4, 0), (4, 0)], atol=1e-9)
+
+
+@pytest.mark.parametrize(("load", "start"), [(3 * t, 0), (5, 0), (3 * sp.sin(2 * t), 1)])
+def test_a_stack_of_two_blocks_in_a_plane_slides_as_on_a_line(load: sp.Expr, start: float) -> None:
+    """The lower of two blocks is pulled along (3, 4)/5: one contact, the other, or both at once begin to slide from rest."""
+    c, along, times = coordinates("x y z w"), np.array([[0.6, 0], [0.8, 0], [0, 0.6], [0, 0.8]]), np.linspace(0, 2, 5)
+    a, b, d, e = c.v
+    rubs = sp.sqrt(a**2 + b**2) + sp.sqrt((a - d) ** 2 + (b - e) ** 2) / 2
+    stack = System(c, sum(v**2 for v in c.v) / 2, forces=(0.6 * load, 0.8 * load, 0, 0), dissipation=rubs)
+    line = System(PLANE, SLIDING, forces=(load, 0), dissipation=sp.Abs(A) + sp.Abs(A - B) / 2)
+    run = stack.simulate({}, (0,) * 4, along @ (0, start), times, 1e-9)
+    np.testing.assert_allclose(run.v @ along, line.simulate({}, (0, 0), (0, start), times, 1e-9).v, atol=1e-9)
+    assert run.error < 1e-9
