@@ -407,7 +407,10 @@ def _smooth(
     system, scale, increment = phase.system, h.scale, 0.0
     for i, s in enumerate(h.surfaces):
         if s.metric is not None and mode.signs[i] and h.acts(i, mode):
-            y, numbers[str(s.least)], at_rest = _sliding(h, Moment(y, now, mode), i, local, times[-1])
+            try:
+                y, numbers[str(s.least)], at_rest = _sliding(h, Moment(y, now, mode), i, local, times[-1])
+            except StopError as stop:
+                raise StopError(0.0, stop.reason) from None  # counted from the start of the phase
             if at_rest:
                 increment = _SLOPE * numbers[str(s.least)] / float(h.scale[h.moving].max())
     if depends_on_time(system):

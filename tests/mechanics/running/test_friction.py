@@ -439,3 +439,13 @@ def test_a_stack_of_two_blocks_in_a_plane_slides_as_on_a_line(load: sp.Expr, sta
     run = stack.simulate({}, (0,) * 4, along @ (0, start), times, 1e-9)
     np.testing.assert_allclose(run.v @ along, line.simulate({}, (0, 0), (0, start), times, 1e-9).v, atol=1e-9)
     assert run.error < 1e-9
+
+
+def test_a_disc_that_spins_in_a_corner_rubs_on_both_walls_and_stops_in_words() -> None:
+    """N₁ + μ N₂ = m g and N₂ = μ N₁: the spin falls by 2 μ (1 + μ) g/(1 + μ²). At rest both contacts hold the same spin."""
+    rate = 2 * 0.2 * 1.2 * 10 / 1.04
+    floor, wall = Impact(DISC.q[1] - 1, 0, 0.2, DISC.v[0] + DISC.v[2]), Impact(DISC.q[0], 0, 0.2, DISC.v[1] - DISC.v[2])
+    with pytest.warns(LagrotorWarning, match="hold the same velocities"):
+        run = FALLING.simulate({k_I: 0.5}, (0, 1, 0), (0, 0, 30), (0, 1, 5, 10), 1e-9, events=(floor, wall))
+    np.testing.assert_allclose(run.v[:, 2], 30 - rate * run.t, atol=1e-8)
+    assert run.ending.at == pytest.approx(30 / rate, abs=1e-6)
