@@ -404,15 +404,8 @@ def _smooth(
     """Integrate one phase until its first condition fails, or to the last time. Return the motion, and the `Hit` or None. `habit`
     is the time in s between the last two events of the same kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
-    system, scale, increment = phase.system, h.scale, 0.0
-    for i, s in enumerate(h.surfaces):
-        if s.metric is not None and mode.signs[i] and h.acts(i, mode):
-            try:
-                y, numbers[str(s.least)], at_rest = _sliding(h, Moment(y, now, mode), i, local, times[-1])
-            except StopError as stop:
-                raise StopError(0.0, stop.reason) from None  # counted from the start of the phase
-            if at_rest:
-                increment = _SLOPE * numbers[str(s.least)] / float(h.scale[h.moving].max())
+    system, scale = phase.system, h.scale
+    y, increment = _begin_sliding(h, y, now, mode, local, times[-1], numbers)
     if depends_on_time(system):
         y, scale = np.append(y, now), np.append(scale, 1.0)
     motion = motion_program(system, h.narrow)
@@ -631,6 +624,23 @@ def _coulomb_impulse(D: Array, change: Array, row: int, tangents: slice, mu: flo
         if settled:
             return np.concatenate([base - coupling @ push, push])
     raise StopError(at, "friction jams an impact: no impulse obeys Newton's and Coulomb's laws")
+
+
+def _begin_sliding(
+    h: Switched, y: Array, now: float, mode: ContactMode, local: float, duration: float, numbers: dict[str, Any]
+) -> tuple[Array, float]:
+    """Return the state at the beginning of a phase with friction in several directions, and the increment of velocities for the
+    slopes if one slides from rest, otherwise 0. Put the speeds that count as zero into `numbers`."""
+    increment = 0.0
+    for i, s in enumerate(h.surfaces):
+        if s.metric is not None and mode.signs[i] and h.acts(i, mode):
+            try:
+                y, numbers[str(s.least)], at_rest = _sliding(h, Moment(y, now, mode), i, local, duration)
+            except StopError as stop:
+                raise StopError(0.0, stop.reason) from None  # counted from the beginning of the phase
+            if at_rest:
+                increment = _SLOPE * numbers[str(s.least)] / float(h.scale[h.moving].max())
+    return y, increment
 
 
 def _sliding(h: Switched, at: Moment, i: int, local: float, duration: float) -> tuple[Array, float, bool]:
