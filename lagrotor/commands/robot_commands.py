@@ -3,6 +3,7 @@
 import argparse
 import math
 import re
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from html import escape
@@ -65,6 +66,8 @@ def export_command(options: argparse.Namespace) -> int:
     system = read_robot(options.file, options.symbols, options.base)
     name = options.file.stem if options.name is None else options.name
     print("\n".join(map(str, system.export(options.to, options.out, name))))
+    for each in system.not_read:
+        print(f"not read: {each}", file=sys.stderr)
     return 0
 
 

@@ -69,6 +69,12 @@ _REWRITTEN: dict[type, Callable[..., sp.Expr]] = {
     sp.sec: lambda x: 1 / sp.cos(x),
     sp.csc: lambda x: 1 / sp.sin(x),
     sp.cot: lambda x: 1 / sp.tan(x),
+    sp.acot: lambda x: sp.atan(1 / x),
+    sp.asec: lambda x: sp.acos(1 / x),
+    sp.acsc: lambda x: sp.asin(1 / x),
+    sp.acoth: lambda x: sp.atanh(1 / x),
+    sp.asech: lambda x: sp.acosh(1 / x),
+    sp.acsch: lambda x: sp.asinh(1 / x),
     sp.Heaviside: lambda x, at_zero: (1 + sp.sign(x)) / 2,
     sp.DiracDelta: lambda x: sp.S.Zero,  # the slope of a sign beside its jump
 }
@@ -191,6 +197,10 @@ class _Writer:
             return self.text(form(*e.args))
         if e.func in (sp.Max, sp.Min) and len(e.args) > 2:
             return self.text(e.func(e.func(*e.args[:2], evaluate=False), *e.args[2:], evaluate=False))
+        if isinstance(e, sp.Derivative | sp.Subs):
+            raise InputError(
+                "export: the derivative of a step, as of floor(x), has no code: write the case that applies"
+            )
         if e.func.__name__ not in self.language.functions:
             raise InputError(f"export: {e} has no code in the other language: write it with elementary functions")
         arguments = ", ".join(self.text(x) for x in e.args)

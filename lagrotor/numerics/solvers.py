@@ -56,8 +56,8 @@ def dop853_steps(segment: Segment, error: float, stiff: float = 0.0) -> Iterator
     project, increment, first_rate = segment.project, stiff, 0.0
 
     def slopes(t: float, y: Array) -> Array:
-        f = np.asarray(segment.rhs(t, y))
-        return np.array([np.asarray(segment.rhs(t, y + each)) - f for each in increment * np.eye(len(y))]).T / increment
+        f, steps = np.asarray(segment.rhs(t, y)), np.maximum(increment, 4 * np.spacing(np.abs(y)))
+        return np.array([np.asarray(segment.rhs(t, y + each)) - f for each in np.diag(steps)]).T / steps
 
     with np.errstate(divide="ignore", invalid="ignore"):  # scipy's first step, where values are not finite
         solver = (partial(Radau, jac=slopes) if stiff else DOP853)(

@@ -87,8 +87,10 @@ def test_refusals(words: tuple[str, ...], rod: str, tmp_path: Path, capsys: pyte
 
 
 def test_export_writes_the_functions_of_a_robot(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "my-rod.urdf").write_text(ROD)
+    (tmp_path / "my-rod.urdf").write_text(ROD.replace("</joint>", '<dynamics friction="0.1"/></joint>'))
     assert main(["export", str(tmp_path / "my-rod.urdf"), "--to", "matlab", "--out", str(tmp_path / "out")]) == 0
-    files = [Path(line) for line in capsys.readouterr().out.split()]
+    said = capsys.readouterr()
+    files = [Path(line) for line in said.out.split()]
+    assert said.err.splitlines() == ["not read: shapes (visual, collision): 1", "not read: dry friction of joints: 1"]
     assert files[0].name == "my_rod_rhs.m" and files[-1].name == "my_rod.json"
     assert {*files} == {*(tmp_path / "out").iterdir()}

@@ -43,7 +43,7 @@ _FUNCTIONS = ("rhs", "mass_matrix", "forcing", "inverse_dynamics", "energy", "jo
 
 def export(system: Equations, language: LanguageName, folder: str | Path, name: str) -> tuple[Path, ...]:
     """Write the functions of a system as files: `System.export`."""
-    if language not in MODULES:
+    if language not in (*MODULES,):
         raise InputError(f"export: language = {language!r} must be one of {', '.join(MODULES)}")
     if not isinstance(name, str) or not name.strip():
         raise InputError(f"export: name = {name!r} must be the name of the system, as 'arm'")
@@ -64,10 +64,16 @@ def _check(system: Equations) -> None:
         surfaces = without_jumps(system)[1]
     except InputError as error:
         raise InputError(str(error).replace("simulate:", "export:")) from None
-    if friction := [surface.argument for surface in surfaces if surface.bound not in (None, 0)]:
+    if friction := [surface for surface in surfaces if surface.bound not in (None, 0)]:
+        w = friction[0].argument
+        way = (
+            f"replace sign({w}) by tanh(({w})/v_0)"
+            if friction[0].metric is None
+            else f"add v_0**2 to {w} under the root"
+        )
         raise InputError(
-            f"export: the dry friction that may hold {friction[0]} at zero is no function of the state: run it by simulate, or "
-            f"replace sign({friction[0]}) by tanh(({friction[0]})/v_0), v_0 a small velocity"
+            f"export: the dry friction that may hold {w} at zero is no function of the state: run it by simulate, or {way}, "
+            "v_0 a small velocity"
         )
     if system.generalised_forces.free_symbols & {*system.multipliers}:
         raise InputError("export: the forces contain a reaction, which has no formula here: run the system by simulate")

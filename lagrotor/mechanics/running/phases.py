@@ -405,12 +405,8 @@ def _smooth(
     """Integrate one phase until its first condition fails, or to the last time. Return the motion, and the `Hit` or None. `habit`
     is the time in s between the last two events of the same kind."""
     phase, numbers = h.phase(mode), h.numbers(mode)
-    system, scale, increment = phase.system, h.scale, 0.0
-    for i, s in enumerate(h.surfaces):
-        if s.metric is not None and mode.signs[i] and h.acts(i, mode):
-            y, numbers[str(s.least)], at_rest = _sliding(h, Moment(y, now, mode), i, local, times[-1])
-            if at_rest:
-                increment = _SLOPE * numbers[str(s.least)] / float(h.scale[h.moving].max())
+    system, scale = phase.system, h.scale
+    y, increment = _begin_sliding(h, y, now, mode, local, times[-1], numbers)
     if depends_on_time(system):
         y, scale = np.append(y, now), np.append(scale, 1.0)
     motion = motion_program(system, h.narrow)
@@ -508,11 +504,12 @@ def _first(
             rounding = not begun and s < _FRESH * upper and event is None and conditions(np.array([2 * s]))[k, 0] > 0
             if s > start and direction in (0, way) and not rounding:
                 hits.append(Hit(polish(conditions, int(k), float(s), lower, upper), kind, i))
-    if not begun and not hits:  # seek a condition that is false from the start on
-        ends = conditions(np.array([10 * start, upper]))
-        scale = np.abs(ends).max(1)
+    if (
+        not begun and not hits
+    ):  # seek a condition that is false from the start on, although rounding may hide it at first
+        early, late = conditions(np.array([10 * start, upper])).T
         for k, (kind, i, _) in enumerate(phase.conditions):
-            if kind != "event" and (ends[k] < -_NOISE * scale[k]).all():
+            if kind != "event" and late[k] < -max(_NOISE * abs(early[k]), noise[k]) and early[k] <= noise[k]:
                 return Hit(0.0, kind, i), hidden
     return min(hits, default=None), hidden
 
@@ -617,6 +614,8 @@ def _coulomb_impulse(D: Array, change: Array, row: int, tangents: slice, mu: flo
     base, coupling = inner @ change[:first], inner @ D[:first, first:]
     S, s = D[first:, first:] - D[first:, :first] @ coupling, D[first:, :first] @ base - change[first:]
     length, push = np.linalg.norm(S, 2), np.zeros(len(change) - first)
+    if length <= _NOISE * np.linalg.norm(D[first:, first:], 2):  # what else is closed determines the sliding velocity
+        return np.concatenate([base, push])
     for _ in range(_SWEEPS):
         pressure = mu * max(base[row] - coupling[row] @ push, 0.0)
         wanted = push - (s + S @ push) / length
@@ -628,6 +627,23 @@ def _coulomb_impulse(D: Array, change: Array, row: int, tangents: slice, mu: flo
     raise StopError(at, "friction jams an impact: no impulse obeys Newton's and Coulomb's laws")
 
 
+def _begin_sliding(
+    h: Switched, y: Array, now: float, mode: ContactMode, local: float, duration: float, numbers: dict[str, Any]
+) -> tuple[Array, float]:
+    """Return the state at the beginning of a phase with friction in several directions, and the increment of velocities for the
+    slopes if one slides from rest, otherwise 0. Put the speeds that count as zero into `numbers`."""
+    increment = 0.0
+    for i, s in enumerate(h.surfaces):
+        if s.metric is not None and mode.signs[i] and h.acts(i, mode):
+            try:
+                y, numbers[str(s.least)], at_rest = _sliding(h, Moment(y, now, mode), i, local, duration)
+            except StopError as stop:
+                raise StopError(0.0, stop.reason) from None  # counted from the beginning of the phase
+            if at_rest:
+                increment = _SLOPE * numbers[str(s.least)] / float(h.scale[h.moving].max())
+    return y, increment
+
+
 def _sliding(h: Switched, at: Moment, i: int, local: float, duration: float) -> tuple[Array, float, bool]:
     """Return the state at the beginning of a phase in which friction in several directions slides, the sliding speed that counts
     as zero, the local error, and True if the surface was at rest. Then it gets twice this speed, against the force that would
@@ -637,7 +653,10 @@ def _sliding(h: Switched, at: Moment, i: int, local: float, duration: float) -> 
     speed, size = h.slide(i, at)
     if speed >= 2 * local * size > 0:
         return at.y, local * size, False
-    mode = at.mode.with_value("signs", i, 0)
+    mode = at.mode
+    for k, other in enumerate(h.surfaces):  # other friction that begins to slide from rest has no direction yet, either
+        if k == i or (other.metric is not None and mode.signs[k] and h.acts(k, mode) and h.slide(k, at)[0] == 0):
+            mode = mode.with_value("signs", k, 0)
     system, count = h.phase(mode).system, len(s.slips)
     held = slice(*(len(system.multipliers) - np.array([count, 0]) - _after(h, mode, i)))
     moment = at._replace(mode=mode)
@@ -741,6 +760,9 @@ def _settle(h: Switched, at: Moment, fixed: bool = False) -> ContactMode:
             break
         expressions, moment = [e for *_, e in reactions], at._replace(mode=mode)
         _check_held(h, moment)
+        for i, s in enumerate(h.surfaces):
+            if s.metric is not None and mode.signs[i] and h.acts(i, mode):
+                moment = moment._replace(y=_sliding(h, moment, i, _NOISE, 1.0)[0])
         values = h.evaluate(phase.system, expressions, moment)
         worst = int(np.argmin(values))
         size = np.abs(values).max() if len(values) > 1 else 0.0

@@ -156,11 +156,11 @@ def _program(
         pulses = [p for p in e.atoms(sp.Pow) if isinstance(p.base, sp.cosh) and p.exp.is_negative]
         return e.xreplace({p: sp.sech(*p.base.args) ** -p.exp for p in pulses}) if pulses else e
 
-    numbers = set().union(*(e.atoms(sp.Float) for e in (*(e for _, e in stages), *outputs)))
+    numbers = set().union(*(e.atoms(sp.Float, sp.Rational) for e in (*(e for _, e in stages), *outputs)))
     if lost := [c for c in numbers if c != 0 and float(c) in (0.0, math.inf, -math.inf)]:
         raise InputError(
-            f"{sp.Float(lost[0], 3)} is outside the range of doubles: sympy separates it from an exponent with decimals, as in "
-            "exp(x + 1838.0); write the exponent with symbols, and give them values"
+            f"{sp.Float(lost[0], 3)} is outside the range of doubles: write it with symbols, and give them values; from an "
+            "exponent with decimals, as in exp(x + 1838.0), sympy separates such a number"
         )
     program = Program(
         (*(rename.get(s, s) for s in (*states, *parameters)), *functions),

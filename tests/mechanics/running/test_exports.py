@@ -88,6 +88,7 @@ def odd_functions() -> System:
         + sp.log(2 + sp.cos(x)) * sp.pi
         + sp.tanh(y * bad[6])
     )
+    V += sp.acot(2 + x) + sp.asec(4 + y) + sp.acsch(3 + x) + sp.acoth(4 + x) + sp.acsc(5 + y) + sp.asech(x / 9)
     V += (
         bad[7] * sp.Max(x, y, 1) ** 2
         + bad[8] * (2 + x) ** bad[9]
@@ -449,6 +450,14 @@ def held_by_a_reaction() -> System:
     return System(c, m * (c.v[0] ** 2 + c.v[1] ** 2) / 2 - m * g * c.q[1], constraints={"floor": c.q[1]}, forces=push)
 
 
+PLANE = coordinates("x y")
+X, A, B = PLANE.q[0], *PLANE.v
+
+
+def particle(forces: tuple[sp.Expr, ...] = (), dissipation: sp.Expr = sp.S.Zero) -> System:
+    return System(PLANE, (A**2 + B**2) / 2, forces=forces, dissipation=dissipation)
+
+
 def with_function() -> System:
     c = coordinates("x")
     return System(c, c.v[0] ** 2 / 2 - sp.Function("U")(c.q[0]))
@@ -463,6 +472,14 @@ def with_cases() -> System:
     ("system", "arguments", "words"),
     [
         (dry, {}, r"dry friction that may hold theta_dot at zero .* tanh\(\(theta_dot\)/v_0\)"),
+        (
+            lambda: particle(dissipation=m * sp.sqrt(A**2 + B**2)),
+            {},
+            r"or add v_0\*\*2 to x_dot\*\*2 \+ y_dot\*\*2 under",
+        ),
+        (lambda: particle((sp.floor(X), 0)), {}, r"derivative of a step, as of floor\(x\), has no code"),
+        (lambda: particle((10**400 * X / m, 0)), {}, r"E\+400 is outside the range of doubles: write it with symbols"),
+        (pendulum, {"language": ["c"]}, r"language = \['c'\] must be one of"),
         (held_by_a_reaction, {}, "contain a reaction"),
         (with_function, {}, "the function U has no expression"),
         (with_cases, {}, "Piecewise.* has no code in the other language"),

@@ -405,3 +405,47 @@ def test_contacts_that_hold_the_same_velocity_end_the_run_in_words() -> None:
     with pytest.warns(LagrotorWarning, match="hold the same velocities, and their friction is not determined"):
         run = rod.simulate({}, (0, 1, 0.4), (1, 0, 0), np.linspace(0, 3, 31), 1e-7, events=events)
     assert np.abs(run.q[-1, 1:]).max() < 1e-9 and run.energy[-1] == pytest.approx(0, abs=1e-9)
+
+
+@pytest.mark.parametrize("height", [0, 1, 1000])
+@pytest.mark.parametrize("rough", [0, 0.3])
+def test_a_disc_let_go_on_an_incline_at_any_height_does_not_fall_through_it(height: float, rough: float) -> None:
+    """The gap y − height starts at zero, where the rounding of y hides how it closes. Rolling takes a third of g sin α."""
+    L = FALLING.lagrangian.subs({k_I: 0.5, DISC.q[1]: 0}) - 10 * np.cos(0.5) * DISC.q[1] + 10 * np.sin(0.5) * DISC.q[0]
+    floor = Impact(DISC.q[1] - height, 0.5, rough, DISC.v[0] + DISC.v[2] if rough else ())
+    run = System(DISC, L).simulate({}, (0, height, 0), (0, 0, 0), (0, 1, 2), 1e-9, events=floor)
+    ahead = 20 * np.sin(0.5) * (2 / 3 if rough else 1)
+    np.testing.assert_allclose(run.q[-1, :2], (ahead, height), atol=1e-9)
+    assert run.error < 1e-9
+
+
+def test_a_block_on_a_floor_meets_a_rough_wall_along_which_it_cannot_move() -> None:
+    """From 6 by μ g = 2 to 4 at the wall x = 5, back with half of it, and at rest 1 m from the wall."""
+    floor, wall = Impact(PLANE.q[1], 0, 0.2, A), Impact(5 - PLANE.q[0], 0.5, 0.2, B)
+    run = System(PLANE, SLIDING - 10 * PLANE.q[1]).simulate(
+        {}, (0, 0), (6, 0), (0, 1, 2, 4), 1e-9, events=(floor, wall)
+    )
+    np.testing.assert_allclose(run.q, [(0, 0), (5, 0), (4, 0), (4, 0)], atol=1e-9)
+
+
+@pytest.mark.parametrize(("load", "start"), [(3 * t, 0), (5, 0), (3 * sp.sin(2 * t), 1)])
+def test_a_stack_of_two_blocks_in_a_plane_slides_as_on_a_line(load: sp.Expr, start: float) -> None:
+    """The lower of two blocks is pulled along (3, 4)/5: one contact, the other, or both at once begin to slide from rest."""
+    c, along, times = coordinates("x y z w"), np.array([[0.6, 0], [0.8, 0], [0, 0.6], [0, 0.8]]), np.linspace(0, 2, 5)
+    a, b, d, e = c.v
+    rubs = sp.sqrt(a**2 + b**2) + sp.sqrt((a - d) ** 2 + (b - e) ** 2) / 2
+    stack = System(c, sum(v**2 for v in c.v) / 2, forces=(0.6 * load, 0.8 * load, 0, 0), dissipation=rubs)
+    line = System(PLANE, SLIDING, forces=(load, 0), dissipation=sp.Abs(A) + sp.Abs(A - B) / 2)
+    run = stack.simulate({}, (0,) * 4, along @ (0, start), times, 1e-9)
+    np.testing.assert_allclose(run.v @ along, line.simulate({}, (0, 0), (0, start), times, 1e-9).v, atol=1e-9)
+    assert run.error < 1e-9
+
+
+def test_a_disc_that_spins_in_a_corner_rubs_on_both_walls_and_stops_in_words() -> None:
+    """N₁ + μ N₂ = m g and N₂ = μ N₁: the spin falls by 2 μ (1 + μ) g/(1 + μ²). At rest both contacts hold the same spin."""
+    rate = 2 * 0.2 * 1.2 * 10 / 1.04
+    floor, wall = Impact(DISC.q[1] - 1, 0, 0.2, DISC.v[0] + DISC.v[2]), Impact(DISC.q[0], 0, 0.2, DISC.v[1] - DISC.v[2])
+    with pytest.warns(LagrotorWarning, match="hold the same velocities"):
+        run = FALLING.simulate({k_I: 0.5}, (0, 1, 0), (0, 0, 30), (0, 1, 5, 10), 1e-9, events=(floor, wall))
+    np.testing.assert_allclose(run.v[:, 2], 30 - rate * run.t, atol=1e-8)
+    assert run.ending.at == pytest.approx(30 / rate, abs=1e-6)
