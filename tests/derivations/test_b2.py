@@ -52,7 +52,7 @@ def test_the_page_says_what_others_do_faster_and_by_how_much_they_miss_their_tol
     times, multiples, _ = run_path(str(ROOT / "derivations" / "b2_seconds.py"))["tables"]
     row = dict(zip(times.head, next(row for row in times.rows if row[0] == "heyoka alone"), strict=True))
     assert row["largest error / tolerance"] == ("—" if older else "1.2e+03")
-    slower = "For an error of 1e-06 m the time of the fast extra is 2 times that of heyoka alone."
+    slower = "For an error of 1e-06 m the time of the fast extra is 2 times the time of heyoka alone."
     assert slower in multiples.note and "error of 1e-08 m the" not in multiples.note
     assert times.note.endswith("is not on record." if older else "with the present code.")
 
