@@ -36,6 +36,7 @@ html_theme = "pydata_sphinx_theme"
 html_title = f"lagrotor {release}"
 html_context = {"default_mode": "auto"}  # light or dark as the system; without it the first page writes an error
 html_static_path = ["site.css", "site.js"]
+html_favicon = "icon.svg"
 html_css_files = ["site.css"]
 html_js_files = ["site.js"]
 html_sidebars = {page: [] for page in ("index", "gallery", "contributing", "changelog")}
