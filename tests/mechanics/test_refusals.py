@@ -177,7 +177,7 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "contains w_2, which is defined after it": lambda: own({w1: u + w2, w2: w}),
         "do not give x_dot, y_dot: 1 more": lambda: own({w1: u}),
         "leave some out": lambda: own({w1: u, w2: w, r: u - w}),
-        "must be 1 finite numbers, of w_1": lambda: run(
+        "must be a finite number, of w_1": lambda: run(
             System(P, FLAT, rolling=(u - w,), velocities={w1: u}), {m: 1}, (0, 0), (1, 0)
         ),
         # Frames, joints and bodies
@@ -270,9 +270,9 @@ REFUSED: dict[type[LagrotorError], dict[str, Callable[[], Any]]] = {
         "friction = 1 with 0 sliding velocities: with friction give slip": lambda: Impact(q, friction=1),
         "friction = -1 must be a coefficient": lambda: Impact(q, friction=-1, slip=u),
         "slip .*must be affine in the velocities": lambda: run(events=Impact(q, friction=1, slip=v**2)),
-        r"q0 = \(1, 2\) must be 1 finite": lambda: run(q0=(1, 2)),
+        r"q0 = \(1, 2\) must be a finite": lambda: run(q0=(1, 2)),
         r"q0 = array\(\[ True\]\) must be 1": lambda: run(q0=np.array([True])),
-        r"v0 = \(inf,\) must be 1 finite": lambda: run(v0=(np.inf,)),
+        r"v0 = \(inf,\) must be a finite": lambda: run(v0=(np.inf,)),
         r"t = \[1, 0\] must be an increasing": lambda: run(times=[1, 0]),
         r"t = \[\] must be an increasing": lambda: run(times=[]),
         "t = 5 must be an increasing array.*linspace": lambda: run(times=5),

@@ -241,5 +241,7 @@ def state_vector(where: str, name: str, numbers: ArrayLike, n: int, system: Equa
         meaning = f"of {', '.join(map(str, system.speeds))}" if system and quasi else "one for each coordinate"
         if system and name == "x0":
             meaning = f"of {', '.join(str(x) for x, _ in system.states) or 'no state, as the system has none'}"
-        raise InputError(f"{where}: {name} = {numbers!r} must be {n} finite numbers, {meaning}")
+        raise InputError(
+            f"{where}: {name} = {numbers!r} must be {'a finite number' if n == 1 else f'{n} finite numbers'}, {meaning}"
+        )
     return vector

@@ -212,7 +212,7 @@ REFUSED: dict[str, Callable[[], Any]] = {
     "may stand in forces and dissipation alone": lambda: System(
         C, C.theta_dot**2, constraints=(C.theta,), states={I: reaction(1)}
     ),
-    "x0 = () must be 1 finite numbers, of I": lambda: MOTOR.simulate(NUMBERS, [0], [0], [0, 1]),
+    "x0 = () must be a finite number, of I": lambda: MOTOR.simulate(NUMBERS, [0], [0], [0, 1]),
     "x0 names J, which is none of I": lambda: MOTOR.simulate(NUMBERS, [0], [0], [0, 1], x0={"J": 0}),
     "as the system has none": lambda: System(C, C.theta_dot**2).simulate({}, [0], [0], [0, 1], x0=[1]),
     "give its start by q0, v0 or x0": lambda: MOTOR.simulate(NUMBERS | {I: 1}, [0], [0], [0, 1], x0=[0]),
