@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from lagrotor.mechanics.systems import RobotSystem
 
 _FORMATS = {".md": "markdown", ".tex": "latex", ".html": "html"}
-_MOST_COORDINATES, _MOST_OPERATIONS, _MOST_PRINTED = 6, 1000, 3000  # of L, and of one formula
+_MOST_COORDINATES = 6
+_MOST_OPERATIONS = 1000  # in the Lagrangian
+_MOST_PRINTED = 3000  # operations in one printed formula
 _FPS = 25.0  # frames per second
 
 Section = tuple[str, list[str], list[str]]  # heading, formulas in LaTeX, lines of text

@@ -161,7 +161,7 @@ def multiplier_latex(letter: str, name: str) -> str:
     return rf"\{letter}_{{{name}}}" if name.isdigit() else rf"\{letter}_{{\mathrm{{{upright}}}}}"
 
 
-_DIGITS = 6  # of a printed decimal fraction
+_DIGITS = 6  # digits of a printed decimal fraction
 _MOST_COORDINATES, _MOST_OPERATIONS = 6, 400  # the largest system and formula that are printed
 
 

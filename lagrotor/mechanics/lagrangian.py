@@ -140,7 +140,7 @@ def coordinates(names: str | Sequence[str]) -> Coordinates:
     return Coordinates(q, v, a)
 
 
-NO_COORDINATES = Coordinates((), (), ())  # of a system of first-order states alone
+NO_COORDINATES = Coordinates((), (), ())  # the coordinates of a system of first-order states alone
 
 
 def gradient(f: sp.Expr, symbols: Sequence[sp.Symbol]) -> sp.Matrix:

@@ -20,7 +20,7 @@ from lagrotor.errors import InputError
 from lagrotor.numerics.codegen import Program, reduce_common
 
 LanguageName = Literal["c", "casadi", "jax", "julia", "matlab"]
-_MOST_FACTORS = 8  # of a power that is written as a product
+_MOST_FACTORS = 8  # the highest power that is written as a product
 _LONGEST_NAME = 50  # characters; MATLAB allows 63
 _CIRCULAR = ("sin", "cos", "tan", "sinh", "cosh", "tanh")
 _PLAIN = (*_CIRCULAR, *(f"a{name}" for name in _CIRCULAR), "exp", "log", "sqrt", "floor", "sign")
@@ -34,7 +34,7 @@ def _named(prefix: str, **others: str) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Language:
-    """What the source of one language needs: function names, a power, an assignment, and an element of an array."""
+    """The syntax of one language: function names, a power, an assignment, and an element of an array."""
 
     functions: Mapping[str, str]
     power: str

@@ -41,7 +41,14 @@ from lagrotor.mechanics.expressions import shortest
 from lagrotor.mechanics.lagrangian import t, total_derivative
 
 _STEMS = "m mx my mz Ixx Ixy Ixz Iyy Iyz Izz"
-_ENTRIES = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))  # of a symmetric matrix
+_ENTRIES = (
+    (0, 0),
+    (0, 1),
+    (0, 2),
+    (1, 1),
+    (1, 2),
+    (2, 2),
+)  # the entries of a symmetric matrix on and above its diagonal
 _MORE = 5  # random states beyond the number of unknowns
 _LARGEST = 30  # numerator and denominator of a random number
 
@@ -233,7 +240,7 @@ class _Energies:
     def _row(self, numbers: Mapping[Any, Any], K: Any) -> tuple[list[Any], list[Any]]:
         zero, half = [K.zero] * 3, K.from_sympy(sp.S.Half)
         field = [K.from_sympy(e.xreplace(numbers)) for e in self.field] or zero
-        # Of each frame: ω, v of the origin, the field, and the depth g·r of the origin.
+        # Each frame has ω, the velocity v of its origin, the field of weight g, and the depth g·r of its origin.
         places = dict[Any, tuple[list[Any], list[Any], list[Any], Any]]()
         for frame, step in zip(self.frames, self.steps, strict=True):
             x = [K.from_sympy(e.xreplace(numbers)) for e in step]

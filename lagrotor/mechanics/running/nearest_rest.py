@@ -26,7 +26,7 @@ _LEAST = 1e-9  # share of a step, below which the search ends
 _REACH = 0.5  # longest step over 1 + the largest coordinate or state
 _LINEAR = 0.5  # deviation from the linear prediction over the predicted change, beyond which a step is halved
 _SHORT = 1e-15  # step over the size of the state, below which Newton's method has ended
-_ROUNDING = 1e-10  # of the terms J δ whose sum are the rates, below which they are zero
+_ROUNDING = 1e-10  # rates below this fraction of the largest term of J δ count as zero
 _RANK = 1e-12  # singular value over the largest, below which a direction is free
 _BOUNDED = 1e-6  # growth rate over the largest rate, below which small motion is bounded
 

@@ -41,7 +41,7 @@ _ROUNDINGS = 64.0  # rounding errors of a state that make the noise of a conditi
 _NOISE = 1e-12  # of the size of a velocity or a reaction, below which it is zero
 _STEP = 1e-5  # of a size, by which a component is varied for the size of a function
 _AT_ONCE = 20  # events at one time, after which the motion is refused
-_SWEEPS = 20_000  # of the iteration for the impulses of an impact with friction
+_SWEEPS = 20_000  # steps of the iteration for the impulses of an impact with friction
 _HABIT, _GONE = 8, 1e-8  # impacts whose intervals shrink by one factor; the time to their accumulation over the run
 _DEPENDENT = (
     1e-8  # least singular value of the rows of contacts that stick, below which their forces are not determined
