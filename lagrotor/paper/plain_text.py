@@ -17,10 +17,10 @@ _SIGNS = {
 _FONTS = ("text", "mathcal", "mathrm", "mathbf", "boldsymbol", "operatorname", "vec", "hat")
 _ABOVE = {"": "", "_dot": "\u0307", "_ddot": "\u0308"}
 _LOW, _HIGH = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-_ARROWS = {" -> ": " → ", " >= ": " ≥ ", " <= ": " ≤ ", "||": "‖"}
+_ARROWS = {"+/-": "±", " -> ": " → ", " >= ": " ≥ ", " <= ": " ≤ ", "||": "‖"}
 # A minus sign, but no hyphen between words or in a range.
 _MINUS = re.compile(
-    r"(?<![^\s(=:;/,])-(?=[\dͰ-ϿD√]|(?:sin|cos|exp)\(|[A-Za-z](?:[_₀-₉/]| \())|(?<= )-(?= )|(?<=\()-(?=\()"
+    r"(?<![^\s(\[=:;/,])-(?=[\dͰ-ϿD√]|(?:sin|cos|exp)\(|[A-Za-z](?:[_₀-₉/]| \())|(?<= )-(?= )|(?<=\()-(?=\()"
 )
 
 

@@ -186,6 +186,7 @@ def markdown_html(text: str) -> str:
     text = re.sub(r"\s*(\$\$.+?\$\$)\s*", r"\n\n\1\n\n", text, flags=re.DOTALL)  # a displayed formula is a paragraph
     html: str = renderer.render(text)
     html = html.replace('<div class="math block">', '<div class="wide">')  # reduced or scrolled like every formula
+    html = re.sub(r'<span class="math inline">(<math.*?</math>)</span>', r"\1", html, flags=re.DOTALL)
     for level in (3, 2, 1):  # below a heading of the page
         html = html.replace(f"<h{level}>", f"<h{level + 1}>").replace(f"</h{level}>", f"</h{level + 1}>")
     return html
